@@ -234,7 +234,8 @@ pub fn check_while(
     let fastest = if model.stop().is_some() { Phase::Pressed } else { Phase::Slip };
     let radians = structure.rate(fastest) * end_s;
     let bound = (100.0 * f64::EPSILON * radians).max(1e-10);
-    let judged = history.filter(|h| radians <= MAX_RADIANS && well_formed(model, motion, h));
+    let judged = history
+        .filter(|h| radians <= MAX_RADIANS && well_formed(model, model.storeys(), motion, h));
     let run = |history| {
         let (law, given) = (Law::new(model, vertical), (response, history));
         Judge::new(model, motion, given, (&structure, &law), Pulse::new(go_on)).run(bound)
@@ -256,9 +257,9 @@ fn unjudged(bound: f64) -> Certificate {
     }
 }
 
-/// Whether a history has the shape that its documentation promises.
-fn well_formed(model: &Model, motion: &GroundMotion, history: &History) -> bool {
-    let (n, knots) = (model.storeys(), history.len());
+/// Whether a history has the shape that its documentation promises, with so many storeys.
+fn well_formed(model: &Model, n: usize, motion: &GroundMotion, history: &History) -> bool {
+    let knots = history.len();
     let ends_s = motion.duration_s() * (1.0 - 8.0 * f64::EPSILON);
     let knot_lists = [
         &history.table_acceleration_m_per_s2,

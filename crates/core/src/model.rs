@@ -5,8 +5,8 @@ mod structure;
 mod tank;
 
 pub use builder::ModelBuilder;
-pub(crate) use structure::ROUNDED_MASS;
-pub use structure::{ModeInPlane, Structure, StructureMode, StructurePoint};
+pub(crate) use structure::{ACROSS, ROUNDED_ACROSS, ROUNDED_MASS, largest_mass_kg};
+pub use structure::{ModeInPlane, OscillatorInPlane, Structure, StructureMode, StructurePoint};
 pub use tank::LiquidTank;
 
 use crate::error::ModelError;
@@ -90,7 +90,9 @@ impl InitialState {
 }
 
 /// What is along y where the table moves in two horizontal directions: the frame has the masses that it
-/// has along x and does not twist, the slider is the same in all directions.
+/// has along x and does not twist, the slider is the same in all directions. A structure by its modes has its own
+/// directions: of stiffnesses and damping it has none here, and the start of storeys is that of the
+/// [oscillators](Structure::oscillators_in_plane) that its modes are, one value each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AlongY {
     /// Stiffness of each storey in N/m.
@@ -214,8 +216,13 @@ impl Model {
         positive("block mass_kg", block.mass_kg)?;
         structure.check()?;
         let frame = structure.oscillators();
-        let block = Block { mass_kg: block.mass_kg + structure.missing_mass_kg(), ..block };
+        let bare_kg = block.mass_kg;
+        let block = Block { mass_kg: bare_kg + structure.missing_mass_kg(), ..block };
         let model = Self::new(block, slider, frame, gravity_m_per_s2, initial)?;
+        // What moves with the block is a mass in every direction.
+        let most = largest_mass_kg(structure.mass_in_plane_kg());
+        let expected = "a block heavier than what rounding makes of the mass that modes lack";
+        in_range("block mass_kg", expected, bare_kg, most < model.total_mass_kg())?;
         Ok(Self { structure: Some(structure), ..model })
     }
 
@@ -275,14 +282,17 @@ impl Model {
     /// # Errors
     /// [`ModelError`] as [`Model::new`].
     pub fn with_along_y(mut self, along_y: AlongY) -> Result<Self, ModelError> {
-        let n = self.storeys();
+        let [n, started] = match &self.structure {
+            Some(structure) => [0, structure.oscillators_in_plane().len()],
+            None => [self.storeys(); 2],
+        };
         optional_positive("block width_y_m", along_y.width_m)?;
         each("storey stiffnesses_y_n_per_m", n, &along_y.stiffnesses_n_per_m, positive)?;
         match &along_y.damping {
             Damping::Ratio(ratio) => not_negative("storey damping_ratio_y", *ratio)?,
             Damping::Dampers(c) => each("storey dampers_y_n_s_per_m", n, c, not_negative)?,
         }
-        check_start(&along_y.initial, n)?;
+        check_start(&along_y.initial, started)?;
         self.along_y = Some(along_y);
         Ok(self)
     }
@@ -290,19 +300,48 @@ impl Model {
     /// What is along y: as given, or as along x and at rest.
     #[must_use]
     pub fn along_y(&self) -> AlongY {
-        self.along_y.clone().unwrap_or_else(|| AlongY {
-            stiffnesses_n_per_m: self.frame.stiffnesses_n_per_m.clone(),
-            damping: self.frame.damping.clone(),
-            width_m: None,
-            initial: InitialState::rest(),
+        self.along_y.clone().unwrap_or_else(|| {
+            let (stiffnesses_n_per_m, damping) = match &self.structure {
+                Some(_) => (Vec::new(), Damping::Ratio(0.0)),
+                None => (self.frame.stiffnesses_n_per_m.clone(), self.frame.damping.clone()),
+            };
+            let initial = InitialState::rest();
+            AlongY { stiffnesses_n_per_m, damping, width_m: None, initial }
         })
+    }
+
+    /// Whether it says what is along y.
+    pub(crate) fn is_in_plane(&self) -> bool {
+        self.along_y.is_some()
+    }
+
+    /// Coordinates of the structure in two directions: those of floors along x and along y, or one a mode.
+    #[must_use]
+    pub fn degrees_in_plane(&self) -> usize {
+        match &self.structure {
+            Some(structure) => structure.oscillators_in_plane().len(),
+            None => 2 * self.storeys(),
+        }
+    }
+
+    /// Storeys of a [history](crate::response::History) in two directions: floors, or modes.
+    #[must_use]
+    pub fn storeys_in_plane(&self) -> usize {
+        match &self.structure {
+            Some(_) => self.degrees_in_plane(),
+            None => self.storeys(),
+        }
     }
 
     /// The same model turned so that what is along y is along x.
     pub(crate) fn turned_to_y(&self) -> Self {
         let AlongY { stiffnesses_n_per_m, damping, width_m, initial } = self.along_y();
+        let block = Block { width_m, ..self.block };
+        if self.structure.is_some() {
+            return Self { block, initial, along_y: None, ..self.clone() };
+        }
         Self {
-            block: Block { width_m, ..self.block },
+            block,
             frame: Frame { stiffnesses_n_per_m, damping, ..self.frame.clone() },
             initial,
             along_y: None,

@@ -275,7 +275,7 @@ impl Request {
         engine: &Engine<'_>,
     ) -> Result<(Results, String), AssessmentError> {
         let models = self.models(on, Some(self.one("over")))?;
-        let (scaling, scaled) = self.scaling(None)?;
+        let (scaling, scaled) = self.scaling(None, &[])?;
         let demands: Vec<String> = self.all("demand").map(str::to_owned).collect();
         let bounds = self.bounds(on)?;
         let suite = on.suite;
@@ -355,7 +355,7 @@ impl Request {
             return Err(refuse("vary", expected, "nothing"));
         }
         let models = self.models(on, None)?;
-        let (scaling, scaled) = self.scaling(None)?;
+        let (scaling, scaled) = self.scaling(None, &[])?;
         let gap_m = match (self.given("gap"), on.analysis.model.slider().gap_m()) {
             (Some(text), _) => limit("gap", text, SLIDING)?,
             (None, Some(gap_m)) => gap_m,

@@ -484,7 +484,36 @@ pub struct EventInPlane {
     pub sliding_displacement_y_m: f64,
 }
 
-/// The part of a history that is along y, at the knots of [`History`] and in its order.
+/// How the motion of points in two directions follows from that of the oscillators which the modes of a structure
+/// are, each along a direction of its own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointFactorsInPlane {
+    /// Point by point along x and y: what of each oscillator's motion the point has.
+    pub of_modes: Vec<[Vec<f64>; 2]>,
+    /// What of the block's acceleration it has besides, along x and y by that along x and y.
+    pub with_block: Vec<[[f64; 2]; 2]>,
+}
+
+impl PointFactorsInPlane {
+    /// Those of a model whose structure is given by its modes.
+    #[must_use]
+    pub fn of(model: &Model) -> Option<Arc<Self>> {
+        let structure = model.structure()?;
+        let oscillators = structure.oscillators_in_plane();
+        let of_modes = |i: usize| {
+            [0, 1].map(|axis| oscillators.iter().map(|mode| mode.points[i][axis]).collect())
+        };
+        let points = 0..structure.points.len();
+        Some(Arc::new(Self {
+            of_modes: points.clone().map(of_modes).collect(),
+            with_block: points.map(|i| structure.with_block_in_plane(i)).collect(),
+        }))
+    }
+}
+
+/// The part of a history that is along y, at the knots of [`History`] and in its order. The oscillators of a
+/// structure by its modes have directions of their own: their motions are stored as those of storeys of
+/// [`History`], and here there are none.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HistoryAlongY {
     /// Table acceleration in m/s², on the knot's side of a jump.
@@ -503,6 +532,59 @@ pub struct HistoryAlongY {
     pub storey_velocity_m_per_s: Vec<f64>,
     /// Total acceleration of the floors in m/s².
     pub storey_acceleration_m_per_s2: Vec<f64>,
+    /// How the points of a structure by its modes follow from its oscillators; `None` of a frame.
+    pub points: Option<Arc<PointFactorsInPlane>>,
+}
+
+impl HistoryAlongY {
+    /// Number of points whose motion is told: storeys, or the points of a structure by its modes.
+    #[must_use]
+    pub fn point_count(&self, along_x: &History) -> usize {
+        self.points.as_ref().map_or(along_x.storeys, |points| points.of_modes.len())
+    }
+
+    /// Displacement of a point along x and y at a knot in m, relative to the block.
+    #[must_use]
+    pub fn point_displacement(&self, along_x: &History, knot: usize, point: usize) -> [f64; 2] {
+        let own = &self.storey_displacement_m;
+        self.of_point((along_x.storey_displacements(knot), own), along_x.storeys, knot, point)
+    }
+
+    /// Velocity of a point along x and y at a knot in m/s, relative to the block.
+    #[must_use]
+    pub fn point_velocity(&self, along_x: &History, knot: usize, point: usize) -> [f64; 2] {
+        let own = &self.storey_velocity_m_per_s;
+        self.of_point((along_x.storey_velocities(knot), own), along_x.storeys, knot, point)
+    }
+
+    /// Total acceleration of a point along x and y at a knot in m/s².
+    #[must_use]
+    pub fn point_acceleration(&self, along_x: &History, knot: usize, point: usize) -> [f64; 2] {
+        let own = &self.storey_acceleration_m_per_s2;
+        let lists = (along_x.storey_accelerations(knot), own.as_slice());
+        let [x, y] = self.of_point(lists, along_x.storeys, knot, point);
+        let Some(points) = &self.points else { return [x, y] };
+        let block = [&along_x.block_acceleration_m_per_s2, &self.block_acceleration_m_per_s2]
+            .map(|list| list[knot]);
+        let [of_x, of_y] =
+            points.with_block[point].map(|row| row[0] * block[0] + row[1] * block[1]);
+        [x + of_x, y + of_y]
+    }
+
+    fn of_point(
+        &self,
+        (values, own): (&[f64], &[f64]),
+        storeys: usize,
+        knot: usize,
+        point: usize,
+    ) -> [f64; 2] {
+        match &self.points {
+            None => [values[point], own[knot * storeys + point]],
+            Some(points) => points.of_modes[point].each_ref().map(|factors| {
+                factors.iter().zip(values).fold(0.0, |sum, (factor, value)| sum + factor * value)
+            }),
+        }
+    }
 }
 
 /// What a response in two horizontal directions has besides. [`Response::demands`] are then of resultants,

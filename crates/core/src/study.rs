@@ -10,12 +10,14 @@ mod columns;
 mod design;
 pub mod engine;
 pub(crate) mod notices;
+pub(crate) mod records;
 mod rows;
 pub mod summary;
 mod verify;
 
 pub use cases::{Case, Cases};
 pub use design::Design;
+pub use records::Record;
 pub use rows::Row;
 pub use summary::{LevelSummary, StudySummary};
 pub use verify::Verdict;
@@ -26,55 +28,17 @@ use std::sync::OnceLock;
 
 use engine::Engine;
 
-use crate::error::{InputError, MotionError, RunError, Stopped};
+use crate::error::{InputError, RunError, Stopped};
 use crate::input::plan::{Levels, Plan, ROTATE, Records, Target, is_of_motion};
 use crate::input::{Bound, FrictionBounds, MAX_RUNS, Parts, Variation};
-use crate::motion::GroundMotion;
 use crate::motion::intensity::{IntensityMeasures, Measure};
-use crate::motion::target::{Matched, TargetSpectrum, matching_periods, maximum_direction_of_pair};
+use crate::motion::target::{Matched, TargetSpectrum};
 use crate::notice::NoticeKind;
 use crate::numerics::random::{GOLDEN, mix};
 use crate::response::DemandShape;
 
 /// Most models that are kept for the next record: beyond, they are made anew.
 const MODELS_KEPT: u64 = 10_000;
-
-/// A recorded motion of a study.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Record {
-    /// What rows call it: the path as the plan names it.
-    pub name: String,
-    /// The channel that was used.
-    pub channel: String,
-    /// The motion as it was recorded, unscaled, with its vertical component.
-    pub motion: GroundMotion,
-    /// Kinds of what reading it gave notice of.
-    pub warnings: Vec<NoticeKind>,
-    /// Number of the pair of horizontal components that it is one of, the other beside it.
-    pub pair: Option<usize>,
-}
-
-impl Record {
-    /// Components that stand beside each other as one motion a pair in two horizontal directions, which has
-    /// the name of the first.
-    fn together(records: &[Self]) -> Result<Vec<Self>, MotionError> {
-        let join = |group: &[Self]| match group {
-            [x, y] => {
-                let (motion, lengths_differ) = x.motion.with_along_y(&y.motion)?;
-                let mut warnings = x.warnings.clone();
-                let more = lengths_differ.then_some(NoticeKind::LengthsDiffer);
-                for kind in y.warnings.iter().copied().chain(more) {
-                    if !warnings.contains(&kind) {
-                        warnings.push(kind);
-                    }
-                }
-                Ok(Self { motion, warnings, pair: None, ..x.clone() })
-            }
-            _ => Ok(group[0].clone()),
-        };
-        scaled_together(records).into_iter().map(join).collect()
-    }
-}
 
 /// A study whose runs can be computed, in any order.
 ///
@@ -208,14 +172,14 @@ impl Study {
         }
         let records = match &plan.records {
             Some(Records { together: true, .. }) => {
-                Record::together(&records).map_err(|error| {
+                records::together(&records, |x, _| x.to_owned()).map_err(|error| {
                     let expected = "components whose samples make one motion";
                     plan.error_at("records.second", expected, error.to_string())
                 })?
             }
             _ => records,
         };
-        let in_plane = records.iter().any(|record| record.motion.horizontal_y_m_per_s2().is_some());
+        let in_plane = records::in_plane(&records);
         let turned = plan.vary.iter().position(|varied| varied.path == ROTATE);
         let turned = turned.filter(|_| !records.is_empty());
         if turned.is_some() && !in_plane {
@@ -323,15 +287,13 @@ impl Study {
     /// Whether records are pairs of horizontal components, each run by itself.
     #[must_use]
     pub fn has_pairs(&self) -> bool {
-        self.records.iter().any(|record| record.pair.is_some())
+        records::has_pairs(&self.records)
     }
 
     /// The name of a record's pair, that of its first component; empty where it is in none.
     #[must_use]
     pub fn pair_name(&self, record: &Record) -> &str {
-        let first =
-            self.records.iter().find(|first| record.pair.is_some() && first.pair == record.pair);
-        first.map_or("", |first| &first.name)
+        records::pair_name(&self.records, record)
     }
 
     /// How pairs were brought to a target spectrum, where the plan asks for it.
@@ -505,11 +467,6 @@ struct Scaled {
     matched: Option<Matched>,
 }
 
-/// Components that are scaled by one factor: a pair, or a record alone.
-fn scaled_together(records: &[Record]) -> Vec<&[Record]> {
-    records.chunk_by(|a, b| a.pair.is_some() && a.pair == b.pair).collect()
-}
-
 /// The factor of each record at each level.
 fn scaled(
     plan: &Plan,
@@ -517,7 +474,7 @@ fn scaled(
     target: Option<&TargetSpectrum>,
     engine: &Engine<'_>,
 ) -> Result<Result<Scaled, InputError>, Stopped> {
-    let groups = scaled_together(records);
+    let groups = records::groups(records);
     let mut matched = None;
     let mut of_groups = vec![1.0; groups.len()];
     if let Some((named, range_s)) = plan.records.as_ref().and_then(|records| records.target.clone())
@@ -530,14 +487,7 @@ fn scaled(
                 return Ok(Err(plan.error_at("records.target", "a spectrum of the file", found)));
             }
         };
-        let periods_s = matching_periods(range_s);
-        let spectrum = |i: usize| {
-            let other = groups[i].get(1).map(|other| &other.motion);
-            maximum_direction_of_pair(&groups[i][0].motion, other, &periods_s)
-        };
-        let spectra = engine.runs(groups.len(), spectrum)?.into_iter().collect();
-        let spectra: Result<Vec<Vec<f64>>, MotionError> = spectra;
-        match spectra.and_then(|spectra| Matched::new(target, periods_s, &spectra)) {
+        match records::matched(&groups, target, range_s, (engine, true))? {
             Ok(found) => {
                 of_groups.clone_from(&found.factors);
                 matched = Some(found);
@@ -559,14 +509,10 @@ fn scaled(
             }
             Levels::Measure { measure, levels } => (measure, levels),
         };
-        let Some((first, rest)) = groups[i].split_first() else { return Ok(Vec::new()) };
-        let other = rest.first().map(|other| &other.motion);
-        let unscaled = measure.of(&first.motion, other).unwrap_or(f64::NAN);
-        if !(unscaled.is_finite() && unscaled > 0.0) {
+        let unscaled = records::measured(groups[i], measure).map_err(|found| {
             let expected = format!("records that can be scaled to {measure}");
-            let found = format!("{measure} = {unscaled} of {}", first.name);
-            return Err(plan.error_at("records.measure", expected, found));
-        }
+            plan.error_at("records.measure", expected, found)
+        })?;
         Ok(levels.iter().map(|level| level / unscaled).collect())
     };
     let all = match matched {

@@ -7,6 +7,7 @@
 mod common;
 
 use common::cases::all;
+use common::eigen::eigen;
 use slipstick::check::check;
 use slipstick::model::{
     Block, Damping, Frame, InitialState, Model, Slider, Stop, Structure, StructureMode,
@@ -19,36 +20,6 @@ use slipstick::solver::exact;
 
 /// Largest difference of a figure over its size: that of rounding, which long motions of twenty modes add up.
 const AGREED: f64 = 1e-10;
-
-/// Eigenvalues and vectors of a symmetric matrix by Jacobi's rotations, ascending.
-fn eigen(mut a: Vec<Vec<f64>>) -> Vec<(f64, Vec<f64>)> {
-    let n = a.len();
-    let mut v: Vec<Vec<f64>> =
-        (0..n).map(|i| (0..n).map(|j| f64::from(u8::from(i == j))).collect()).collect();
-    for _ in 0..60 {
-        for p in 0..n {
-            for q in p + 1..n {
-                if a[p][q] == 0.0 {
-                    continue;
-                }
-                let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-                let t = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
-                let c = 1.0 / (t * t + 1.0).sqrt();
-                let s = t * c;
-                for row in a.iter_mut().chain(&mut v) {
-                    (row[p], row[q]) = (c * row[p] - s * row[q], s * row[p] + c * row[q]);
-                }
-                for k in 0..n {
-                    (a[p][k], a[q][k]) = (c * a[p][k] - s * a[q][k], s * a[p][k] + c * a[q][k]);
-                }
-            }
-        }
-    }
-    let mut all: Vec<(f64, Vec<f64>)> =
-        (0..n).map(|j| (a[j][j], v.iter().map(|row| row[j]).collect())).collect();
-    all.sort_by(|x, y| x.0.total_cmp(&y.0));
-    all
-}
 
 /// The same model with its frame as modes.
 fn by_modes(model: &Model) -> Model {

@@ -365,12 +365,16 @@ impl Motion {
     /// What its file says of where it was recorded: ``event``, ``station``, ``component``, ``azimuth_deg``.
     #[getter]
     fn origin<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let Origin { event, station, component, azimuth_deg } = &self.0.origin;
+        let Origin { event, station, component, azimuth_deg, along_y } = &self.0.origin;
         let said = PyDict::new(py);
         for (key, text) in [("event", event), ("station", station), ("component", component)] {
             said.set_item(key, text)?;
         }
         said.set_item("azimuth_deg", azimuth_deg)?;
+        if let Some(y) = along_y {
+            said.set_item("component_y", &y.component)?;
+            said.set_item("azimuth_y_deg", y.azimuth_deg)?;
+        }
         Ok(said)
     }
 
@@ -413,8 +417,12 @@ impl Motion {
                 .map(|w| (w.kind.name().to_owned(), w.time_s, w.message.clone()))
                 .collect(),
             {
-                let Origin { event, station, component, azimuth_deg } = motion.origin.clone();
-                (motion.factor, event, station, component, azimuth_deg)
+                let of = |origin: &Origin| {
+                    let Origin { event, station, component, azimuth_deg, .. } = origin.clone();
+                    (event, station, component, azimuth_deg)
+                };
+                let along_y = motion.origin.along_y.as_deref();
+                (motion.factor, of(&motion.origin), along_y.map(of))
             },
         );
         Ok((make, parts))
@@ -449,8 +457,18 @@ impl Motion {
             Ok(Notice { kind, time_s, message })
         };
         let warnings = warnings.into_iter().map(warning).collect::<PyResult<_>>()?;
-        let (factor, event, station, component, azimuth_deg) = origin;
-        let origin = Origin { event, station, component, azimuth_deg };
+        let (factor, along_x, along_y) = origin;
+        let of = |(event, station, component, azimuth_deg): Said| Origin {
+            event,
+            station,
+            component,
+            azimuth_deg,
+            along_y: None,
+        };
+        let origin = match along_y.map(of) {
+            Some(along_y) => of(along_x).with_along_y(along_y),
+            None => of(along_x),
+        };
         let loaded = Loaded { description, warnings, factor, origin, ..motion };
         Ok(Self(LoadedMotion { loaded, sources: Vec::new() }))
     }
@@ -467,5 +485,8 @@ type Pickled<'py> = (
     OriginParts,
 );
 
-/// Factor on the record, event, station, component and azimuth in degrees.
-type OriginParts = (f64, Option<String>, Option<String>, Option<String>, Option<f64>);
+/// Event, station, component and azimuth in degrees.
+type Said = (Option<String>, Option<String>, Option<String>, Option<f64>);
+
+/// Factor on the record, and what the files of its horizontal components say.
+type OriginParts = (f64, Said, Option<Said>);

@@ -129,11 +129,7 @@ impl Response {
     /// Force of the whole slider at the knots in N, rising with the displacement.
     fn _slider_force<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         let model = &self.job.job.analysis.model;
-        let history = self.response_history();
-        let force = |history: &History| {
-            (0..history.len()).map(|knot| history.slider_force_n(model, knot)).collect()
-        };
-        history.map_or_else(Vec::new, force).into_pyarray(py)
+        self.outcome.nominal.response.slider_force_n(model).into_pyarray(py)
     }
 
     /// Static and kinetic friction in N under the weight, each towards +x and −x.

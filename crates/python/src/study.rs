@@ -96,13 +96,7 @@ pub(crate) fn demands(
     }
     let mut plan = Plan::listed(&paths, !records.is_empty()).map_err(|e| of_input(py, &e))?;
     plan.bound = model.analysis.friction_bounds.map(|_| "nominal");
-    let record = |(name, Motion(read)): (String, Motion)| Record {
-        name,
-        channel: read.loaded.channel,
-        motion: read.loaded.motion,
-        warnings: read.loaded.warnings.iter().map(|notice| notice.kind).collect(),
-        pair: None,
-    };
+    let record = |(name, Motion(read)): (String, Motion)| Record::read(name, read.loaded, None);
     let records = records.into_iter().map(record).collect();
     let study = Runs::new(&plan, &model.source, model.text(), records);
     let study = study.map_err(|error| of_input(py, &error))?;

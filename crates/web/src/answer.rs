@@ -102,14 +102,21 @@ impl Answer {
         let empty = History::default();
         let history = response.history.as_ref().unwrap_or(&empty);
         let model = &job.analysis.model;
-        let of_points = |value: fn(&History, usize, usize) -> f64| {
-            let knots = 0..history.len();
-            knots
-                .flat_map(|knot| (0..history.point_count()).map(move |i| value(history, knot, i)))
-                .collect()
-        };
         let along_y = response.in_plane.as_ref().and_then(|plane| plane.history.as_ref());
-        let force = (0..history.len()).map(|knot| history.slider_force_n(model, knot)).collect();
+        let points = along_y.map_or(history.point_count(), |y| y.point_count(history));
+        let of_points = |value: &dyn Fn(usize, usize) -> f64| {
+            let knots = 0..history.len();
+            knots.flat_map(|knot| (0..points).map(move |i| value(knot, i))).collect()
+        };
+        let displacement = |knot, i| match along_y {
+            Some(y) => y.point_displacement(history, knot, i)[0],
+            None => history.point_displacement(knot, i),
+        };
+        let acceleration = |knot, i| match along_y {
+            Some(y) => y.point_acceleration(history, knot, i)[0],
+            None => history.point_acceleration(knot, i),
+        };
+        let force = response.slider_force_n(model);
         let columns = vec![
             history.time_s.clone(),
             history.table_acceleration_m_per_s2.clone(),
@@ -118,8 +125,8 @@ impl Answer {
             history.block_acceleration_m_per_s2.clone(),
             history.friction_force_n.iter().map(|force| -force).collect(),
             force,
-            of_points(History::point_displacement),
-            of_points(History::point_acceleration),
+            of_points(&displacement),
+            of_points(&acceleration),
             history.contents_displacement_m.clone(),
             along_y.map_or_else(Vec::new, |y| y.sliding_displacement_m.clone()),
             along_y

@@ -3,12 +3,13 @@
 use slipstick::assessment::single::described;
 use slipstick::error::RecordError;
 use slipstick::input::loaded::{Components, LoadError, Loaded, Wanted};
-use slipstick::input::{Analysis, MotionSource, RecordSource};
+use slipstick::input::{self, Analysis, MotionSource, Override, RecordSource};
 use slipstick::record::{self, Options, Quantity, Record, Sampling, Units};
 use slipstick::units::{Dimension, parse_quantity};
 use slipstick_report::json::Json;
 
 use crate::failure::Failure;
+use crate::session::MODEL;
 
 /// A file and, once read, what is in it.
 struct File {
@@ -36,6 +37,17 @@ impl Records {
     /// The bytes of a file: of its whole path as the model gives it, else of its name alone.
     pub fn bytes(&self, path: &str) -> Option<&[u8]> {
         self.position(path).map(|i| self.0[i].bytes.as_slice())
+    }
+
+    /// The table of modes that a model names.
+    pub fn modes(&self, text: &str) -> Result<Vec<Override>, Failure> {
+        let read = |path: &str| {
+            let table = self.bytes(path).map(String::from_utf8_lossy);
+            let missing = || format!("no file named {path} dropped on the page");
+            table.map(|table| (path.to_owned(), table.into_owned())).ok_or_else(missing)
+        };
+        let table = input::modes_beside(MODEL, text, read);
+        Ok(table.map_err(|error| Failure::input(&error, text))?.into_iter().collect())
     }
 
     fn position(&self, path: &str) -> Option<usize> {

@@ -104,7 +104,9 @@ impl Session {
         set: Vec<String>,
         display: &str,
     ) -> Result<Answer, JsValue> {
-        let set = overrides(&set)?;
+        let (mut set, modes) = (overrides(&set)?, self.records.modes(text)?);
+        let as_written = set.is_empty();
+        set.extend(modes);
         let analysis =
             input::parse(MODEL, text, &set).map_err(|error| Failure::input(&error, text))?;
         let display = display_units(display);
@@ -131,6 +133,8 @@ impl Session {
         let words = loaded.description.join("; ");
         let summary = Summary::of_response(&name, &job, (model, 1.0), &response, None);
         let answer = Answer::new(&job, &words, &response, &summary, display, ground.number);
+        // Without keys set the text is as written, its table of modes beside it.
+        let set = if as_written { Vec::new() } else { set };
         let (text, judged) = (text.to_owned(), None);
         self.last = Some(Last { job, name, words, text, set, response, judged, display });
         Ok(answer)
@@ -238,7 +242,7 @@ impl Session {
     ) -> Result<Vec<f64>, JsValue> {
         let key = format!("{over}\n{text}");
         if self.sweep.as_ref().is_none_or(|(of, _)| *of != key) {
-            let analysis = parse(text)?;
+            let analysis = parse(text, &[])?;
             let one = analysis.in_one_direction("a sweep follows");
             one.map_err(|error| Failure::input(&error, text))?;
             self.load(&analysis, text)?;
@@ -282,7 +286,7 @@ impl Session {
     /// # Errors
     /// With the place in the text where the model cannot be understood.
     pub fn form(&self, what: &str, text: &str) -> Result<String, JsValue> {
-        Ok(sheets::form(what, &parse(text)?).to_pretty())
+        Ok(sheets::form(what, &parse(text, &self.records.modes(text)?)?).to_pretty())
     }
 
     /// The plan of a study of what is asked, as [`Session::assess`] takes it.
@@ -397,8 +401,8 @@ fn overrides(set: &[String]) -> Result<Vec<Override>, Failure> {
     set.collect::<Result<_, _>>().map_err(|error| Failure::input(&error, ""))
 }
 
-pub(crate) fn parse(text: &str) -> Result<Analysis, Failure> {
-    input::parse(MODEL, text, &[]).map_err(|error| Failure::input(&error, text))
+pub(crate) fn parse(text: &str, set: &[Override]) -> Result<Analysis, Failure> {
+    input::parse(MODEL, text, set).map_err(|error| Failure::input(&error, text))
 }
 
 fn display_units(name: &str) -> DisplayUnits {

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use slipstick::assessment::suite::Suite;
 use slipstick::input::loaded::{Components, Loaded, Wanted};
 use slipstick::input::plan::Plan;
-use slipstick::input::{Analysis, MotionSource};
+use slipstick::input::{Analysis, MotionSource, Override};
 use slipstick::notice::Notice;
 use slipstick::record::Options;
 use slipstick::requests::{Answer, Door, Field, Kind, On, Request, Results, Runs, Takes};
@@ -203,6 +203,8 @@ fn followed<T>(work: impl FnOnce(&Engine<'_>) -> T) -> T {
 struct Job<'a> {
     settings: Settings<'a>,
     text: &'a str,
+    /// The table of modes that the model names.
+    set: Vec<Override>,
     name: String,
     analysis: Analysis,
     suite: Suite,
@@ -210,7 +212,8 @@ struct Job<'a> {
 
 impl<'a> Job<'a> {
     fn new(records: &mut Records, text: &'a str, options: &'a [String]) -> Result<Self, Failure> {
-        let (settings, analysis) = (Settings(options), parse(text)?);
+        let (settings, set) = (Settings(options), records.modes(text)?);
+        let analysis = parse(text, &set)?;
         if analysis.method != Method::Exact {
             let expected = "the exact method, which is the only one over a suite";
             let error = analysis.error_at("analysis.method", expected, "\"stepwise\"");
@@ -218,7 +221,7 @@ impl<'a> Job<'a> {
         }
         let suite = suite(records, &settings, &analysis, text)?;
         let name = analysis.name.clone().unwrap_or_else(|| "Model".to_owned());
-        Ok(Self { settings, text, name, analysis, suite })
+        Ok(Self { settings, text, set, name, analysis, suite })
     }
 
     fn on(&self) -> On<'_> {
@@ -226,7 +229,7 @@ impl<'a> Job<'a> {
             name: &self.name,
             source: MODEL,
             text: self.text,
-            set: &[],
+            set: &self.set,
             analysis: &self.analysis,
             suite: &self.suite,
         }
@@ -488,13 +491,7 @@ fn planned(
                 let options = Options { format: None, units: wanted.units, dt_s: wanted.dt_s };
                 let channel = wanted.channel.as_deref();
                 let loaded = recorded(records, name, &options, (channel, up))?;
-                suite.push(Record {
-                    name: name.clone(),
-                    channel: loaded.channel.clone(),
-                    warnings: loaded.warnings.iter().map(|warning| warning.kind).collect(),
-                    motion: loaded.motion,
-                    pair: (!second.is_empty()).then_some(i),
-                });
+                suite.push(Record::read(name.clone(), loaded, (!second.is_empty()).then_some(i)));
             }
         }
     }

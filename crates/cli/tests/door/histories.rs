@@ -339,7 +339,7 @@ fn exact_stops_contents_and_names_of_a_suite() {
 #[test]
 fn exact_flat_geometry_is_said_of_runs_suites_and_studies() {
     let folder = folder("histories-flat", 2);
-    let said = "of its radius: flat geometry holds to 0.2";
+    let said = "of its radius: beyond 0.2 flat geometry is in error";
     let one = ["run", "plain.toml", "--motion", "records/r1.csv", "--scale", "8"];
     let text = folder.stdout(&one);
     let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -425,15 +425,23 @@ fn exact_report_of_a_suite_says_what_it_is_of() {
     };
     folder.write("x/RSN1_A000.AT2", at2("0", 0.0));
     folder.write("y/RSN1_A090.AT2", at2("90", 0.7));
-    let arguments =
-        ["--records", "x", "--second", "y", "--periods", "0.5 s..3 s", "--code-spectrum"];
+    let arguments = ["--records", "x", "--second", "y", "--code-spectrum"];
     let spectrum = ["sds = 1.2 g, sd1 = 0.8 g, tl = 8 s", "--jobs", "1", "--out", "out"];
-    let plan = ["--eccentricity", "e = 3 m, y = 9 m, b = 18 m, d = 24 m"];
+    let plan = [
+        "--eccentricity",
+        "e = 3 m, y = 9 m, b = 18 m, d = 24 m",
+        "--property-factors",
+        "test = 0.8..1.3, limits = 0.6..1.8",
+    ];
     let text =
         folder.stdout(&[&["run", "model.toml"], &arguments[..], &spectrum[..], &plan[..]].concat());
     let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
     for said in [
-        "Records Record Earthquake Station Component Azimuth Factor PGA (g) RSN1_A000 ",
+        "Records Record Earthquake Station Component Azimuth Factor PGA, resultant (g) RSN1_A000 ",
+        "000, 090 0°, 90°",
+        "0.75 to 1.25 T_M",
+        "of the gap (%)",
+        "λ at most 0.6000, at least 1.800: as run 0.6000 1.800",
         "Nowhere Fire Station",
         "Effective damping β_M (%)",
         "Displacement D_M (mm)",
@@ -459,6 +467,17 @@ fn exact_report_of_a_suite_says_what_it_is_of() {
     let displacement = sa * rate * rate / number("damping_factor");
     assert!((displacement / number("displacement_m") - 1.0).abs() < 1e-12, "{lateral}");
     assert!((500.0 / (number("stiffness_n_per_m") * rate * rate) - 1.0).abs() < 1e-12, "{lateral}");
+    // Pairs are compared with the spectrum from 0.75 of the shortest effective period to 1.25 of the longest.
+    let periods = summary["lateral_force"].as_array().unwrap().iter();
+    let periods: Vec<f64> = periods.map(|found| found["period_s"].as_f64().unwrap()).collect();
+    let (longest, shortest) = (periods[0], periods[2]);
+    let range = format!("from {:.3} s to {:.3} s", 0.75 * shortest, 1.25 * longest);
+    assert!(words.contains(&range) && longest > shortest, "{range}: {text}");
+    let within = ["--property-factors", "test = 0.8..1.3"];
+    let text =
+        folder.stdout(&[&["run", "model.toml"], &arguments[..], &spectrum[..1], &within].concat());
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("within the limits of ASCE/SEI 7, section 17.2.8.4"), "{text}");
     let page = folder.read("out/report.html");
     assert!(page.contains("class=\"number governs\""));
     assert!(page.find("id=\"target\"").unwrap() < page.find("id=\"histories\"").unwrap());

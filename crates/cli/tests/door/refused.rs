@@ -391,6 +391,16 @@ fn exact_messages_say_what_was_meant() {
              PEER AT2\"",
         ),
         (
+            &["compare", "model.toml", "model.toml"],
+            "model.toml:1:1: expected a table with a column a sensor, found \"a model: what was measured \
+             stands before it\"",
+        ),
+        (
+            &["identify", "shaking-table", "model.toml", "record.csv"],
+            "model.toml:1:1: expected a table with a column a sensor, found \"a model: what was measured \
+             stands before it\"",
+        ),
+        (
             &["run", "model.toml", "record.csv"],
             "record.csv: expected a model, found a record (a record is given beside a model",
         ),
@@ -400,8 +410,8 @@ fn exact_messages_say_what_was_meant() {
         ),
         (
             &["run", "model.toml", "--set", "slider.friction=0.1"],
-            "--set slider.friction=…:1:1: expected a path of the model, found \"slider.friction\"; \
-             nearest is \"slider.static_friction\"",
+            "--set slider.friction=…:1:1: expected static_friction or kinetic_friction of slider, found \
+             \"slider.friction\"",
         ),
         (
             &[

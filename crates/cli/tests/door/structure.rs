@@ -70,8 +70,67 @@ fn exact_faults_of_a_table_of_modes_are_told_where_they_are() {
             "-0.5,",
             "modes.csv:2:1: structure.mode.1.period: expected a finite time > 0",
         ),
+        (
+            "negative-mass",
+            "participation_x,first_x,roof_x\n0.5,0.03,800,",
+            "effective_mass_kg,first_x,roof_x\n0.5,0.03,-640000,",
+            "modes.csv:2:10: structure.mode.1.effective_mass: expected a finite mass",
+        ),
     ] {
         let folder = folder(&format!("structure-{name}"), &MODES.replacen(from, to, 1));
+        let message = folder.refused(&["run", "model.toml"]);
+        assert!(message.contains(place), "{name}: {message}");
+    }
+}
+
+/// Faults of the file's own keys.
+#[test]
+fn faults_of_the_keys_of_a_structure_are_told_where_they_are() {
+    for (name, from, to, place) in [
+        (
+            "negative-total",
+            "mass = \"800 t\"",
+            "mass = \"-800 t\"",
+            "model.toml:8:8: structure.mass: expected a finite mass > 0",
+        ),
+        (
+            "negative-point",
+            "height = \"8 m\"",
+            "mass = \"-1 t\"",
+            "model.toml:12:8: structure.point.1.mass: expected a finite mass > 0",
+        ),
+        (
+            "no-unit",
+            "mass = \"800 t\"",
+            "mass = 800",
+            "model.toml:8:8: structure.mass: expected a mass",
+        ),
+        (
+            "lengths",
+            "modes = \"modes.csv\"",
+            "damping_ratio = 0.03\nmode = [{ period = \"1 s\", participation = 700 }, { period = \"0.5 s\", \
+             participation = 90 }]",
+            "structure.point.1.shape: expected one value a mode, 2 in all, found ",
+        ),
+        (
+            "lengths-y",
+            "modes = \"modes.csv\"",
+            "damping_ratio = 0.03\nmode = [{ period = \"1 s\", participation = 700, participation_y = 0 }, \
+             { period = \"0.5 s\", participation = 90, participation_y = 700 }]\n\
+             point = [{ name = \"top\", shape = [1e-3, 1e-3], shape_y = [1e-3] }]\n#",
+            "structure.point.1.shape_y: expected one value a mode, 2 in all, found 1",
+        ),
+    ] {
+        let folder = Folder::new(&format!("structure-key-{name}"));
+        folder.write("modes.csv", MODES);
+        let text = MODEL.replacen(from, to, 1);
+        let text = match name {
+            "lengths-y" => {
+                text.replace("[[structure.point]]\nname = \"Roof\"\nheight = \"8 m\"\n", "")
+            }
+            _ => text,
+        };
+        folder.write("model.toml", text);
         let message = folder.refused(&["run", "model.toml"]);
         assert!(message.contains(place), "{name}: {message}");
     }

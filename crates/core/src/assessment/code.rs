@@ -18,20 +18,26 @@ pub struct PropertyFactors {
     pub aging: [f64; 2],
     /// `λ_spec`: of the tolerance that the specification allows.
     pub specification: [f64; 2],
+    /// What the products are taken to at least: the least at most the first, the largest at least the second.
+    pub limits: Option<[f64; 2]>,
 }
 
 impl PropertyFactors {
+    /// The limits on the products of section 17.2.8.4: `λ_min` is at most 0.60, `λ_max` at least 1.8.
+    pub const CODE_LIMITS: [f64; 2] = [0.6, 1.8];
+
     /// The factors as people write them: `test = 0.9..1.2, aging = 1..1.3, specification = 0.85..1.15`; those
-    /// left out are 1.
+    /// left out are 1. With `limits = 0.6..1.8` the products reach these limits at least.
     ///
     /// # Errors
     /// [`ChoiceError`] for `property-factors` unless each has a least value of at most 1, above 0, and a
     /// largest of at least 1.
     pub fn parse(text: &str) -> Result<Self, ChoiceError> {
         let expected = "factors from below 1 to above it: test = 0.9..1.2, aging = 1..1.3, \
-                        specification = 0.85..1.15";
+                        specification = 0.85..1.15, limits = 0.6..1.8";
         let wrong = || refused("property-factors", expected, text);
-        let given = named(text, ["test", "aging", "specification"]).ok_or_else(wrong)?;
+        let given = named(text, ["test", "aging", "specification", "limits"]).ok_or_else(wrong)?;
+        let limited = given[3].is_some();
         let range = |text: Option<&str>| -> Option<[f64; 2]> {
             let Some(text) = text else { return Some([1.0; 2]) };
             let (from, to) = text.split_once("..")?;
@@ -39,23 +45,27 @@ impl PropertyFactors {
             (0.0 < least && least <= 1.0 && 1.0 <= most && most.is_finite())
                 .then_some([least, most])
         };
-        let [test, aging, specification] = given.map(range);
-        match (test, aging, specification) {
-            (Some(test), Some(aging), Some(specification)) => {
-                Ok(Self { test, aging, specification })
-            }
-            _ => Err(wrong()),
-        }
+        let [Some(test), Some(aging), Some(specification), Some(limits)] = given.map(range) else {
+            return Err(wrong());
+        };
+        Ok(Self { test, aging, specification, limits: limited.then_some(limits) })
     }
 
     /// `λ = (1 + 0.75 (λ_ae − 1)) λ_test λ_spec`, of the least factors and of the largest
-    /// (equations 17.2-1 and 17.2-2, without the limits on the products).
+    /// (equations 17.2-1 and 17.2-2).
+    #[must_use]
+    pub fn products(&self) -> [f64; 2] {
+        [0, 1].map(|i| {
+            (1.0 + AGING_SHARE * (self.aging[i] - 1.0)) * self.test[i] * self.specification[i]
+        })
+    }
+
+    /// The products, at least as far apart as their limits where these are given.
     #[must_use]
     pub fn bounds(&self) -> FrictionBounds {
-        let of = |i: usize| {
-            (1.0 + AGING_SHARE * (self.aging[i] - 1.0)) * self.test[i] * self.specification[i]
-        };
-        FrictionBounds { lower: of(0), upper: of(1) }
+        let [lower, upper] = self.products();
+        let [least, most] = self.limits.unwrap_or([lower, upper]);
+        FrictionBounds { lower: lower.min(least), upper: upper.max(most) }
     }
 }
 
@@ -138,6 +148,10 @@ mod tests {
         assert!((bounds.upper - 1.6445).abs() < 1e-15 && (bounds.lower - 0.629).abs() < 1e-15);
         let alone = PropertyFactors::parse("test=0.9..1.2").unwrap().bounds();
         assert_eq!((alone.lower, alone.upper), (0.9, 1.2));
+        let limited = PropertyFactors::parse("test=0.5..1.2, limits=0.6..1.8").unwrap();
+        let bounds = limited.bounds();
+        assert_eq!((bounds.lower, bounds.upper), (0.5, 1.8));
+        assert_eq!(limited.products(), [0.5, 1.2]);
         for wrong in
             ["", "test = 1.1..1.2", "test = 0..1", "tests = 0.9..1", "test = 0.9..1, test = 1..1"]
         {

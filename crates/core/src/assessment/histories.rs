@@ -6,18 +6,19 @@ pub mod alone;
 use self::alone::{ALONE, Alone};
 use super::lateral::LateralForce;
 use super::single::{Job, Judged};
-use super::suite::{Scaled, Scaling, Suite, SuiteRecord};
+use super::suite::{Scaled, Scaling, Suite};
 use super::{AssessmentError, FailedRun};
 use crate::error::RunError;
 use crate::input::loaded::Loaded;
 use crate::input::{Analysis, Bound, Names};
 use crate::motion::GroundMotion;
-use crate::motion::target::Matched;
+use crate::motion::target::{Matched, TargetSpectrum};
 use crate::notice::Notice;
 use crate::record::Origin;
 use crate::response::{
     DemandColumn, DemandShape, Demands, Method, Response, flat_geometry, struck,
 };
+use crate::study::Record;
 use crate::study::engine::Engine;
 use crate::table::{Cells, Column, Table};
 
@@ -262,7 +263,10 @@ pub fn run_histories(
             travels_m: slider.surfaces().iter().map(|on| on.travel_m).collect(),
             stop_m: slider.stop_m(),
             governing_history: None,
-            lateral: lateral(model.analysis, scaling),
+            lateral: match scaling {
+                Scaling::Target(spectrum, _) => lateral(model.analysis, spectrum),
+                _ => Vec::new(),
+            },
             bounds,
             records,
         };
@@ -292,9 +296,8 @@ fn bounds(analysis: &Analysis) -> Vec<Bound> {
     analysis.friction_bounds.map_or_else(|| vec![Bound::NOMINAL], |bounds| bounds.all().to_vec())
 }
 
-/// The procedure's displacement with each bound under the spectrum that the records are brought to.
-fn lateral(analysis: &Analysis, scaling: &Scaling) -> Vec<Option<LateralForce>> {
-    let Scaling::Target(spectrum, _) = scaling else { return Vec::new() };
+/// The displacement of the equivalent-lateral-force procedure with each bound under a spectrum.
+pub(crate) fn lateral(analysis: &Analysis, spectrum: &TargetSpectrum) -> Vec<Option<LateralForce>> {
     let of = |bound: &Bound| LateralForce::of(&bound.of(&analysis.model), spectrum);
     bounds(analysis).iter().map(of).collect()
 }
@@ -335,7 +338,7 @@ fn on_record(
     bounds: &[Bound],
     ran: impl Iterator<Item = Result<Kept, RunError>>,
 ) -> OnRecord {
-    let SuiteRecord { name, motion, origin, notices, .. } = &model.suite.records[record];
+    let Record { name, motion, origin, notices, .. } = &model.suite.records[record];
     let mut on = OnRecord {
         record: name.clone(),
         pair: model.suite.pair_name(record).to_owned(),

@@ -10,7 +10,7 @@ use super::fragility::{Capacity, Fragility};
 use super::models::Models;
 use super::observed::{Averaged, DesignGroup, FRICTION, design_groups};
 use super::spectrum::status;
-use super::suite::{Suite, SuiteRecord};
+use super::suite::Suite;
 use super::{AssessmentError, FailedRun, refuse};
 use crate::error::{FitError, RunError, Stopped};
 use crate::input::{Bound, Parts};
@@ -20,6 +20,7 @@ use crate::notice::Notice;
 use crate::numerics::fractile;
 use crate::numerics::sort;
 use crate::response::{Response, demand_values};
+use crate::study::Record;
 use crate::study::engine::Engine;
 use crate::table::{Cells, Column, Table};
 
@@ -382,7 +383,7 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
         for design in &of_group {
             let at = kept.partition_point(|other| other < design);
             let label = designs.label(*design, &averaged);
-            let name = |record: &SuiteRecord| format!("{}{label}", record.name);
+            let name = |record: &Record| format!("{}{label}", record.name);
             names.extend(suite.records.iter().map(name));
             own.extend_from_slice(&curves[at * records..(at + 1) * records]);
         }

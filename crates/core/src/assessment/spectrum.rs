@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 
 use super::cases::{Case, Cases, Ran, failures, noticed};
 use super::models::Models;
-use super::suite::{Scaling, Suite, SuiteRecord};
+use super::suite::{Scaling, Suite};
 use super::{AssessmentError, FailedRun, refuse};
 use crate::error::{ModelError, MotionError, RunError, Stopped};
 use crate::input::{Bound, Parts};
@@ -14,6 +14,7 @@ use crate::motion::GroundMotion;
 use crate::notice::Notice;
 use crate::numerics::fractile::fractiles;
 use crate::response::{DemandColumn, demand_values};
+use crate::study::Record;
 use crate::study::engine::Engine;
 use crate::table::Table;
 
@@ -377,9 +378,9 @@ fn on_fixed_base(
             structures.push(Ok(held));
         }
     }
-    let along = |record: &SuiteRecord| {
+    let along = |record: &Record| {
         let motion = without_vertical(&record.motion);
-        SuiteRecord { motion: motion.unwrap_or_else(|_| record.motion.clone()), ..record.clone() }
+        Record { motion: motion.unwrap_or_else(|_| record.motion.clone()), ..record.clone() }
     };
     let flat = Suite { records: suite.records.iter().map(along).collect(), ..suite.clone() };
     let tail_s = tail_s(&structures);

@@ -7,10 +7,11 @@ use crate::input::Parts;
 use crate::input::loaded::Loaded;
 use crate::motion::GroundMotion;
 use crate::motion::intensity::{LevelMeasure, Measure};
-use crate::motion::target::{Matched, TargetSpectrum, matching_periods, maximum_direction_of_pair};
-use crate::notice::{Notice, NoticeKind};
+use crate::motion::target::{Matched, TargetSpectrum};
+use crate::notice::Notice;
 use crate::record::Origin;
 use crate::study::engine::{Engine, made_motion, scaled_with_tail};
+use crate::study::{Record, records};
 use crate::table::{Column, Table};
 
 /// A factor on records in words, to stand after them.
@@ -59,21 +60,6 @@ pub struct Scaled {
     pub matched: Option<Matched>,
 }
 
-/// A record of a suite.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SuiteRecord {
-    /// Its name in tables.
-    pub name: String,
-    /// The motion as it was recorded.
-    pub motion: GroundMotion,
-    /// The pair of horizontal components that it is one of; the two stand beside each other.
-    pub pair: Option<usize>,
-    /// What its file says of where it was recorded.
-    pub origin: Origin,
-    /// What reading it gave notice of.
-    pub notices: Vec<Notice>,
-}
-
 /// What an answer is of: a record, without its samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recorded {
@@ -93,7 +79,7 @@ pub struct Recorded {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Suite {
     /// The records in their order.
-    pub records: Vec<SuiteRecord>,
+    pub records: Vec<Record>,
     /// Whether the motion is made by the model rather than recorded: then it is the one record.
     pub made: bool,
     /// What was noticed of the records together.
@@ -130,10 +116,7 @@ impl Suite {
     /// Records that were read, by their names, each alone.
     #[must_use]
     pub fn of(read: impl IntoIterator<Item = (String, Loaded)>, made: bool) -> Self {
-        let record = |(name, loaded): (String, Loaded)| {
-            let Loaded { motion, origin, warnings: notices, .. } = loaded;
-            SuiteRecord { name, motion, pair: None, origin, notices }
-        };
+        let record = |(name, loaded): (String, Loaded)| Record::read(name, loaded, None);
         Self { records: read.into_iter().map(record).collect(), made, notices: Vec::new() }
     }
 
@@ -147,13 +130,13 @@ impl Suite {
     /// Whether there are pairs among the records, each component by itself.
     #[must_use]
     pub fn has_pairs(&self) -> bool {
-        self.records.iter().any(|record| record.pair.is_some())
+        records::has_pairs(&self.records)
     }
 
     /// Whether records move the table in two horizontal directions.
     #[must_use]
     pub fn in_plane(&self) -> bool {
-        self.records.iter().any(|record| record.motion.horizontal_y_m_per_s2().is_some())
+        records::in_plane(&self.records)
     }
 
     /// The same with each pair as one motion in two horizontal directions, its first component along x, its
@@ -162,22 +145,7 @@ impl Suite {
     /// # Errors
     /// [`MotionError`] where the union of their times has too many samples.
     pub fn together(&self) -> Result<Self, MotionError> {
-        let join = |group: &[SuiteRecord]| match group {
-            [x, y] => {
-                let (motion, lengths_differ) = x.motion.with_along_y(&y.motion)?;
-                let mut notices = x.notices.clone();
-                notices.extend(y.notices.iter().filter(|n| !x.notices.contains(n)).cloned());
-                notices.extend(lengths_differ.then(|| {
-                    let message = "the components along x and along y differ in length: the shorter \
-                                   is zero after its end";
-                    Notice::new(NoticeKind::LengthsDiffer, message.to_owned())
-                }));
-                let name = format!("{} + {}", x.name, y.name);
-                Ok(SuiteRecord { name, motion, pair: None, origin: x.origin.clone(), notices })
-            }
-            _ => Ok(group[0].clone()),
-        };
-        let records = self.scaled_together().into_iter().map(join).collect::<Result<_, _>>()?;
+        let records = records::together(&self.records, |x, y| format!("{x} + {y}"))?;
         Ok(Self { records, made: self.made, notices: self.notices.clone() })
     }
 
@@ -191,7 +159,7 @@ impl Suite {
     /// What an answer over the suite is of.
     #[must_use]
     pub fn recorded(&self) -> Vec<Recorded> {
-        let of = |record: &SuiteRecord| Recorded {
+        let of = |record: &Record| Recorded {
             name: record.name.clone(),
             origin: record.origin.clone(),
             factor: None,
@@ -229,20 +197,12 @@ impl Suite {
             return Err(refuse("measure", PAIRS, measure.to_string()));
         }
         let groups = self.scaled_together();
-        let value = |i: usize| {
-            let [first, rest @ ..] = groups[i] else { return f64::NAN };
-            let other = rest.first().map(|other| &other.motion);
-            measure.of(&first.motion, other).unwrap_or(f64::NAN)
-        };
-        let values = engine.map(groups.len(), |i| Ok(value(i)))?;
-        for (value, group) in values.iter().zip(&groups) {
-            if !(value.is_finite() && *value > 0.0) {
-                let expected = format!("records that can be scaled to {measure}");
-                let found = format!("{measure} = {value} of {}", group[0].name);
-                return Err(refuse("measure", expected, found));
-            }
-        }
-        Ok(values)
+        let values = engine.map(groups.len(), |i| Ok(records::measured(groups[i], measure)))?;
+        let values: Result<Vec<f64>, String> = values.into_iter().collect();
+        values.map_err(|found| {
+            let expected = format!("records that can be scaled to {measure}");
+            refuse("measure", expected, found)
+        })
     }
 
     /// Values of records alone and pairs, those of pairs on both components.
@@ -253,7 +213,7 @@ impl Suite {
 
     /// Whether every record has both horizontal components.
     fn is_of_pairs(&self) -> bool {
-        let in_plane = |record: &SuiteRecord| record.motion.horizontal_y_m_per_s2().is_some();
+        let in_plane = |record: &Record| record.motion.horizontal_y_m_per_s2().is_some();
         self.scaled_together().iter().all(|group| group.len() == 2 || in_plane(&group[0]))
     }
 
@@ -271,8 +231,8 @@ impl Suite {
     }
 
     /// Records that are scaled by one factor: a pair, or a record alone.
-    fn scaled_together(&self) -> Vec<&[SuiteRecord]> {
-        self.records.chunk_by(|a, b| a.pair.is_some() && a.pair == b.pair).collect()
+    fn scaled_together(&self) -> Vec<&[Record]> {
+        records::groups(&self.records)
     }
 
     /// The factor on each record, the same on both components of a pair.
@@ -297,15 +257,8 @@ impl Suite {
                 if !self.is_of_pairs() {
                     return Err(refuse("target", PAIRS, "records alone"));
                 }
-                let periods_s = matching_periods(*range_s);
-                let spectrum = |i: usize| {
-                    let other = groups[i].get(1).map(|other| &other.motion);
-                    Ok(maximum_direction_of_pair(&groups[i][0].motion, other, &periods_s))
-                };
-                let spectra: Result<Vec<Vec<f64>>, MotionError> =
-                    engine.map(groups.len(), spectrum)?.into_iter().collect();
-                let of_target = |spectra: Vec<_>| Matched::new(target, periods_s.clone(), &spectra);
-                let found = spectra.and_then(of_target).map_err(|error| {
+                let found = records::matched(&groups, target, *range_s, (engine, false))?;
+                let found = found.map_err(|error| {
                     let expected = "pairs that can be brought to the spectrum over these periods";
                     refuse("periods", expected, error.to_string())
                 })?;
@@ -323,7 +276,7 @@ impl Suite {
     #[must_use]
     pub fn clusters(&self) -> Vec<usize> {
         let records = &self.records;
-        let together = |a: &SuiteRecord, b: &SuiteRecord| match (a.pair, b.pair) {
+        let together = |a: &Record, b: &Record| match (a.pair, b.pair) {
             (Some(a), Some(b)) => a == b,
             _ => a.origin.is_with(&b.origin),
         };
@@ -334,9 +287,7 @@ impl Suite {
     /// The name of a record's pair, that of its first component; empty where it is in none.
     #[must_use]
     pub fn pair_name(&self, record: usize) -> &str {
-        let pair = self.records[record].pair;
-        let first = self.records.iter().find(|first| pair.is_some() && first.pair == pair);
-        first.map_or("", |first| &first.name)
+        records::pair_name(&self.records, &self.records[record])
     }
 
     /// Columns that say of what intensity each record is as it is run: `measure`, `measure_unit` and

@@ -3,6 +3,7 @@
 //! Only friction joins x and y: `T = −μ_k(|w|) N w/|w|` in a slip, `|T| ≤ μ_s N` in a stick. From every knot the
 //! equations are solved to the next by collocation in physical time, whatever variable the solver has used.
 
+mod body;
 mod decisions;
 mod demands;
 mod frame;
@@ -38,10 +39,10 @@ pub(super) fn check(
     let (Some(h), Some(plane)) = (response.history.as_ref(), response.in_plane.as_deref()) else {
         return unjudged();
     };
-    let Some(along_y) = plane.history.as_ref().filter(|y| is_beside(y, h)) else {
+    let Some(along_y) = plane.history.as_ref().filter(|y| is_beside(model, y, h)) else {
         return unjudged();
     };
-    if !(is_within(model) && well_formed(model, motion, h)) {
+    if !(is_within(model) && well_formed(model, model.storeys_in_plane(), motion, h)) {
         return unjudged();
     }
     if let Some(axis) = straight::only_axis(model, motion) {
@@ -84,7 +85,9 @@ fn fades_alike(rate: &RateLaw) -> bool {
 }
 
 /// Whether the part along y has the knots of a history.
-fn is_beside(y: &HistoryAlongY, h: &History) -> bool {
+fn is_beside(model: &Model, y: &HistoryAlongY, h: &History) -> bool {
+    // The oscillators of a structure by its modes are all in the other part.
+    let storeys_y = if model.structure().is_some() { 0 } else { h.storeys };
     let knots = [
         &y.table_acceleration_m_per_s2,
         &y.sliding_displacement_m,
@@ -95,5 +98,5 @@ fn is_beside(y: &HistoryAlongY, h: &History) -> bool {
     let storeys =
         [&y.storey_displacement_m, &y.storey_velocity_m_per_s, &y.storey_acceleration_m_per_s2];
     knots.iter().all(|list| list.len() == h.len())
-        && storeys.iter().all(|list| list.len() == h.len() * h.storeys)
+        && storeys.iter().all(|list| list.len() == h.len() * storeys_y)
 }

@@ -169,8 +169,10 @@ impl Loaded {
         let mut warnings = of_reader(record, channel);
         let mut motion = motion(channel).map_err(of(Component::X))?;
         let mut differ = Vec::new();
+        let mut origin = Origin::of(channel);
         if let Some((second, _)) = along_y {
             let channel = choose(second, Component::Y)?;
+            origin = origin.with_along_y(Origin::of(channel));
             description.push(format!("along y: {}", second.record.describe(channel)));
             warnings.extend(of_reader(second.record, channel));
             let second = self::motion(channel).map_err(of(Component::Y))?;
@@ -209,7 +211,7 @@ impl Loaded {
         let motion = turned.map_err(of(Component::X))?;
         let figures = motion.figures();
         warnings.extend(of_motion(&motion, &figures, &differ));
-        let (channel, origin) = (channel.name.clone(), Origin::of(channel));
+        let channel = channel.name.clone();
         Ok(Self { motion, channel, origin, factor, description, figures, warnings })
     }
 }

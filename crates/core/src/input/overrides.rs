@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::keys::MODEL;
 use super::modes;
-use super::paths::{NearestKey, join, matching, nearest_key};
+use super::paths::{NearestKey, join, matching, nearest_key, several};
 use super::schema::{Kind, Section};
 use super::tree::{self, Entry, Node, Sources, Spot, Table, Value};
 use crate::error::{InputError, cut};
@@ -454,6 +454,10 @@ pub(super) fn find_kind(path: &str) -> Result<&'static Kind, (String, Option<Str
     loop {
         let name = keys.next().unwrap_or("");
         let Some(key) = section.key(name) else {
+            if let Some(expected) = several(name, section) {
+                let inside = if known.is_empty() { String::new() } else { format!(" of {known}") };
+                return Err((expected + &inside, None));
+            }
             let nearest = nearest_key(name, section, &MODEL).map(|nearest| match nearest {
                 NearestKey::Elsewhere(path) => path,
                 NearestKey::Here(name) => valid_or_start(join(&known, name), keys),

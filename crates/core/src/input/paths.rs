@@ -47,6 +47,13 @@ pub(super) fn nearest_key(
     Some(NearestKey::Here(here))
 }
 
+/// Keys of a section that a name is the end of, where it is of several: `friction` is static or kinetic.
+pub(super) fn several(name: &str, section: &'static Section) -> Option<String> {
+    let ends = |known: &&str| known.strip_suffix(name).is_some_and(|start| start.ends_with('_'));
+    let all: Vec<&str> = section.keys.iter().map(|key| key.name).filter(ends).collect();
+    (all.len() > 1).then(|| all.join(" or "))
+}
+
 fn path_of(name: &str, path: &str, section: &'static Section) -> Option<String> {
     section.keys.iter().find_map(|key| {
         let path = join(path, key.name);

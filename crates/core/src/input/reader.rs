@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::paths::{NearestKey, join, matching, nearest_key};
+use super::paths::{NearestKey, join, matching, nearest_key, several};
 use super::schema::{Key, Kind, Range, Section};
 use super::tree::{Entry, Node, Sources, Spot, Table, Value};
 use crate::error::{InputError, UnitError, cut, similar};
@@ -510,8 +510,11 @@ impl Values {
 
     fn unknown_key(&self, path: &str, entry: &Entry, section: &'static Section) -> InputError {
         let path = join(path, &cut(&entry.name));
-        let expected = format!("one of the keys {}", section.names().join(", "));
         let found = format!("\"{}\"", cut(&entry.name));
+        if let Some(expected) = several(&entry.name, section) {
+            return self.sources.error(&entry.key, &path, expected, found);
+        }
+        let expected = format!("one of the keys {}", section.names().join(", "));
         let error = self.sources.error(&entry.key, &path, expected, found);
         let nearest = nearest_key(&entry.name, section, self.root.0).map(|nearest| match nearest {
             NearestKey::Here(name) => name.to_owned(),

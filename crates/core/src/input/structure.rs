@@ -6,7 +6,10 @@ use super::build::mass_kg;
 use super::motion;
 use super::reader::Values;
 use crate::error::InputError;
-use crate::model::{ModeInPlane, ROUNDED_MASS, Structure, StructureMode, StructurePoint};
+use crate::model::{
+    ACROSS, ModeInPlane, ROUNDED_ACROSS, ROUNDED_MASS, Structure, StructureMode, StructurePoint,
+    largest_mass_kg,
+};
 use crate::numerics::algebra::{dot, solution};
 
 /// Part of 1 by which the shape at the point of the normalisation may differ from it.
@@ -48,6 +51,7 @@ pub(super) fn structure(
         Normalisation::Point(at) => Some(factors(values, &points, &shapes, at)?),
     };
     let (mut modes, mut sums_kg, mut longest_s) = (Vec::new(), [0.0; 2], f64::INFINITY);
+    let mut across_kg = [[0.0; 2]; 2];
     // None where one of the modes is not known along y.
     let mut in_plane = is_along_y(values, count).then(Vec::new);
     for (j, shape) in shapes.iter().enumerate() {
@@ -83,6 +87,15 @@ pub(super) fn structure(
             let (participation, points) = of_unit_mass(masses_kg, given, (&points, both), unit)?;
             Some(ModeInPlane { frequency_rad_per_s, damping_ratio, participation, points })
         });
+        if let Some(ModeInPlane { participation: [x, y], .. }) = &plane {
+            for (sum, of) in across_kg.iter_mut().flatten().zip([x * x, x * y, x * y, y * y]) {
+                *sum += of;
+            }
+            if largest_mass_kg(across_kg) > mass_kg * (1.0 + ROUNDED_ACROSS) {
+                let found = format!("{} kg with this mode", largest_mass_kg(across_kg));
+                return Err(values.error(&table, ACROSS, found));
+            }
+        }
         in_plane = in_plane.zip(plane).map(|(mut all, plane)| {
             all.push(plane);
             all
@@ -101,7 +114,15 @@ pub(super) fn structure(
         let expected = "a mode with an effective mass or a participation that is not 0";
         return Err(values.error("structure.mode", expected, "none"));
     }
-    Ok(Some(Structure { mass_kg, modes, in_plane: in_plane.unwrap_or_default(), points }))
+    let in_plane = in_plane.unwrap_or_default();
+    if in_plane.is_empty() && motion::in_plane(values) {
+        let keys = ["motion.record_y", "motion.sine_y"];
+        let path = keys.into_iter().find(|path| values.has(path)).unwrap_or("structure.mode");
+        let expected = "modes that say what they do along y: participation_y of each mode, and the shape \
+                        NAME_y beside NAME_x at every point";
+        return Err(values.error(path, expected, "a structure known along x alone"));
+    }
+    Ok(Some(Structure { mass_kg, modes, in_plane, points }))
 }
 
 /// Whether a mode says what it does along y.
@@ -169,10 +190,6 @@ fn refuse_beside(values: &Values) -> Result<(), InputError> {
     if values.text("analysis.method") == Some("stepwise") {
         let expected = "the exact method, which a structure by its modes needs";
         return refuse("analysis.method", expected);
-    }
-    if motion::in_plane(values) {
-        let path = if values.has("motion.record_y") { "motion.record_y" } else { "motion.sine_y" };
-        return refuse(path, "a motion along x alone, where the structure is given by its modes");
     }
     Ok(())
 }

@@ -353,13 +353,19 @@ fn by_name(column: &Column) -> Option<(Channel, &'static Unit)> {
 
 /// The error for a file of ground motion, which says so; else as it is.
 fn of_format(source_name: &str, bytes: &[u8], error: RecordError) -> RecordError {
+    // It is the whole file, whatever of it was no number.
+    let another = |found: String| RecordError {
+        expected: "a table with a column a sensor".into(),
+        found,
+        ..RecordError { line: 1, column: 1, offset: None, ..error.clone() }
+    };
+    if bytes.split(|byte| *byte == b'\n').any(|line| line.trim_ascii() == b"[block]") {
+        return another("a model: what was measured stands before it".to_owned());
+    }
     match record::read(source_name, bytes, &record::Options::default()) {
-        Ok(record) if record.format != record::Format::Delimited => RecordError {
-            expected: "a table with a column a sensor".into(),
-            found: format!("a record of ground motion, {}", record.layout),
-            // It is the whole file, whatever of it was no number.
-            ..RecordError { line: 1, column: 1, offset: None, ..error }
-        },
+        Ok(record) if record.format != record::Format::Delimited => {
+            another(format!("a record of ground motion, {}", record.layout))
+        }
         _ => error,
     }
 }
@@ -524,6 +530,30 @@ mod tests {
                         motion, PEER AT2\"";
         assert!(error.starts_with(expected), "{error}");
         assert!(read("time_s,b\n1,2\n0,4\n", &[]).unwrap_err().contains("a time after 1 s"));
+    }
+
+    /// Which of two lines of names is meant is not guessed; units below names are no names.
+    #[test]
+    fn names_on_two_lines_are_refused() {
+        let rows = "0,1,2\n0.01,2,3\n0.02,3,4\n";
+        let stated = "time (s),displacement (mm),force (kN)\n";
+        let found = |header: &str| read(&format!("{header}{rows}"), &[]);
+        for header in [stated, "t,s,F\n"] {
+            assert_eq!(
+                found(&format!("{stated}{header}")).unwrap_err(),
+                "m.csv:2:1: expected one line of names, or names and below them their units, found \
+                 \"names on two lines\""
+            );
+        }
+        assert_eq!(
+            found(&format!("{stated}s,mm,N\n")).unwrap_err(),
+            "m.csv:2:1: expected the unit of \"force (kN)\", found \"N\""
+        );
+        let once = found(stated).unwrap();
+        let twice = found(&format!("{stated}s,mm,kN\n")).unwrap();
+        let below = found("time,displacement,force\ns,mm,kN\n").unwrap();
+        assert!(once.series == twice.series && below.get(Channel::Force).is_some(), "{below:?}");
+        assert!(found(&format!("Test 3\n{stated}")).is_ok());
     }
 
     #[test]

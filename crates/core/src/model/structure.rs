@@ -45,6 +45,26 @@ pub struct ModeInPlane {
     pub points: Vec<[f64; 2]>,
 }
 
+/// A mode as an oscillator on the block, of its effective mass `|L|²` and along the direction `L/|L|`: with
+/// `η = |L| d`
+///
+/// ```text
+/// d̈ + 2 ξ ω ḋ + ω² d = −(L/|L|)·(s̈ + a)
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct OscillatorInPlane {
+    /// Circular frequency `ω` in rad/s.
+    pub frequency_rad_per_s: f64,
+    /// Ratio of critical damping `ξ`.
+    pub damping_ratio: f64,
+    /// `|L|²` in kg.
+    pub mass_kg: f64,
+    /// `L/|L|` along x and y.
+    pub direction: [f64; 2],
+    /// What each point's displacement along x and y has of `d`, `φ |L|`.
+    pub points: Vec<[f64; 2]>,
+}
+
 /// A point of the structure whose motion is wanted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StructurePoint {
@@ -90,6 +110,18 @@ impl ModeInPlane {
 /// Part of the mass by which effective masses may exceed it: what rounding to seven digits makes.
 pub(crate) const ROUNDED_MASS: f64 = 1e-6;
 
+/// The same of what is between x and y, where products of both participations are rounded.
+pub(crate) const ROUNDED_ACROSS: f64 = 1e-3;
+
+/// What is asked of the participations along x and y together.
+pub(crate) const ACROSS: &str = "participations along x and y whose squares sum to at most the mass of the structure in every \
+     direction between them: do their signs belong to the same shapes?";
+
+/// The largest of `Σ (L·u)²` over the directions u, of `Σ L Lᵀ`.
+pub(crate) fn largest_mass_kg([[x, across], [_, y]]: [[f64; 2]; 2]) -> f64 {
+    0.5 * (x + y) + libm::hypot(0.5 * (x - y), across)
+}
+
 impl Structure {
     /// What the modes lack of the mass, in kg.
     #[must_use]
@@ -107,6 +139,38 @@ impl Structure {
             self.in_plane.iter().map(product).sum()
         };
         [[of(0, 0), of(0, 1)], [of(1, 0), of(1, 1)]]
+    }
+
+    /// The oscillators that its modes are in two directions; a mode that takes no part moves nothing.
+    #[must_use]
+    pub fn oscillators_in_plane(&self) -> Vec<OscillatorInPlane> {
+        let taking_part = self.in_plane.iter().filter(|mode| mode.participation != [0.0; 2]);
+        let of = |mode: &ModeInPlane| {
+            let [x, y] = mode.participation;
+            let size = libm::hypot(x, y);
+            OscillatorInPlane {
+                frequency_rad_per_s: mode.frequency_rad_per_s,
+                damping_ratio: mode.damping_ratio,
+                mass_kg: size * size,
+                direction: [x / size, y / size],
+                points: mode.points.iter().map(|shape| shape.map(|phi| phi * size)).collect(),
+            }
+        };
+        taking_part.map(of).collect()
+    }
+
+    /// What of a point's motion is the block's, along x and y by the block's along x and y: `I − Σ φ Lᵀ`.
+    #[must_use]
+    pub fn with_block_in_plane(&self, point: usize) -> [[f64; 2]; 2] {
+        let mut rest = [[1.0, 0.0], [0.0, 1.0]];
+        for mode in &self.in_plane {
+            for (row, phi) in rest.iter_mut().zip(mode.points[point]) {
+                for (rest, l) in row.iter_mut().zip(mode.participation) {
+                    *rest -= phi * l;
+                }
+            }
+        }
+        rest
     }
 
     /// What of a point's motion is the block's: `1 − Σ φ L`, the residual of modes that are not given.
@@ -167,11 +231,14 @@ impl Structure {
         for mode in &self.in_plane {
             mode.check(self.points.len())?;
         }
-        let along_y = self.mass_in_plane_kg()[1][1];
+        let [[x, across], [_, y]] = self.mass_in_plane_kg();
         let expected =
             "participations along y whose squares sum to at most the mass of the structure";
-        let within = along_y <= self.mass_kg * (1.0 + ROUNDED_MASS);
-        super::in_range("structure participation along y", expected, along_y, within)?;
+        let within = y <= self.mass_kg * (1.0 + ROUNDED_MASS);
+        super::in_range("structure participation along y", expected, y, within)?;
+        let within =
+            largest_mass_kg([[x, across], [across, y]]) <= self.mass_kg * (1.0 + ROUNDED_ACROSS);
+        super::in_range("structure participation across", ACROSS, across, within)?;
         for point in &self.points {
             super::optional_positive("structure point mass_kg", point.mass_kg)?;
             super::optional_positive("structure point height_m", point.height_m)?;

@@ -13,6 +13,8 @@ pub struct Origin {
     pub component: Option<String>,
     /// Azimuth of the component, clockwise from north in degrees, where stated: a vertical one has none.
     pub azimuth_deg: Option<f64>,
+    /// Of a motion in two horizontal directions what the file of the component along y says.
+    pub along_y: Option<Box<Self>>,
 }
 
 /// Components that files call vertical, in capital letters.
@@ -29,7 +31,14 @@ impl Origin {
             station: channel.station.clone(),
             component: channel.component.clone(),
             azimuth_deg: channel.azimuth_deg,
+            along_y: None,
         }
+    }
+
+    /// The same of a motion with a second horizontal component.
+    #[must_use]
+    pub fn with_along_y(self, along_y: Self) -> Self {
+        Self { along_y: Some(Box::new(along_y)), ..self }
     }
 
     /// What tells that the motion is a vertical component: the component that its file states, else the
@@ -54,15 +63,19 @@ impl Origin {
         (of_name || joined).then(|| format!("a name that ends in that, {file_name}"))
     }
 
-    /// What it says, by name: earthquake, station, component and azimuth; what it does not say is left out.
+    /// What it says, by name: earthquake, station, component and azimuth, those of both components; what it
+    /// does not say is left out.
     #[must_use]
     pub fn said(&self) -> Vec<(&'static str, String)> {
-        let azimuth = self.azimuth_deg.map(|azimuth_deg| format!("{azimuth_deg}°"));
+        let of_both = |of: fn(&Self) -> Option<String>| match (of(self), &self.along_y) {
+            (Some(x), Some(y)) => Some(format!("{x}, {}", of(y).unwrap_or("—".to_owned()))),
+            (x, _) => x,
+        };
         let all = [
             ("Earthquake", self.event.clone()),
             ("Station", self.station.clone()),
-            ("Component", self.component.clone()),
-            ("Azimuth", azimuth),
+            ("Component", of_both(|on| on.component.clone())),
+            ("Azimuth", of_both(|on| on.azimuth_deg.map(|azimuth| format!("{azimuth}°")))),
         ];
         all.into_iter().filter_map(|(name, text)| Some((name, text?))).collect()
     }
@@ -143,6 +156,16 @@ mod tests {
         }
         let known = Origin { azimuth_deg: Some(90.0), ..stated("090") };
         assert_eq!(known.vertical("x-up.AT2"), None);
+    }
+
+    #[test]
+    fn components_of_a_pair_are_both_said() {
+        let pair = Origin { azimuth_deg: Some(0.0), ..stated("000") };
+        let pair = pair.with_along_y(Origin { azimuth_deg: Some(90.0), ..stated("090") });
+        let expected = [("Component", "000, 090".to_owned()), ("Azimuth", "0°, 90°".to_owned())];
+        assert_eq!(pair.said(), expected);
+        let half = stated("L").with_along_y(Origin::default());
+        assert_eq!(half.said(), [("Component", "L, —".to_owned())]);
     }
 
     #[test]

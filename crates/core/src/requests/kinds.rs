@@ -77,7 +77,7 @@ const PROPERTY_FACTORS: Field = Field::new(
     "property-factors",
     "FACTORS",
     "Bounds of friction from property modification factors, of aging three quarters: \"test = 0.9..1.2, \
-     aging = 1..1.3, specification = 0.85..1.15\"",
+     aging = 1..1.3, specification = 0.85..1.15\"; with limits = 0.6..1.8 the products reach these at least",
 );
 
 /// Fields of one analysis.
@@ -120,7 +120,8 @@ const SUITE: &[Field] = &[
     Field::new(
         "periods",
         "FROM..TO",
-        "First and last period of the range in which pairs are scaled to the spectrum: \"0.6 s..3.8 s\"",
+        "First and last period of the range in which pairs are scaled to the spectrum: \"0.6 s..3.8 s\"; 0.75 \
+         and 1.25 effective periods of the hand calculation if left out",
     ),
     PROPERTY_FACTORS,
     Field::new("hazard", "NAME", "What the report of a suite calls this intensity: MCE_R, DE"),

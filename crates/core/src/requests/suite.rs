@@ -4,7 +4,8 @@ use super::fields::{Request, quantity, wrong};
 use super::{Answer, Kind, On, Results, of_measure};
 use crate::assessment::code::{Plan, named};
 use crate::assessment::grid::levels;
-use crate::assessment::histories::{ModelOn, run_histories};
+use crate::assessment::histories::{ModelOn, lateral, run_histories};
+use crate::assessment::lateral::LateralForce;
 use crate::assessment::models::Models;
 use crate::assessment::suite::{Scaling, times};
 use crate::assessment::sweep::Sweep;
@@ -29,7 +30,6 @@ impl Request {
         target: Option<(&str, TargetSpectrum)>,
         engine: &Engine<'_>,
     ) -> Result<Answer, AssessmentError> {
-        let (scaling, scaled) = self.scaling(target)?;
         let together = models.iter().map(|on| self.together(on));
         let together = together.collect::<Result<Vec<_>, AssessmentError>>()?;
         let models: Vec<On<'_>> = models
@@ -55,6 +55,7 @@ impl Request {
             analysis
         };
         let analyses: Vec<Analysis> = models.iter().map(bounded).collect();
+        let (scaling, scaled) = self.scaling(target, &analyses)?;
         let pairs = models.iter().zip(&analyses);
         let on: Vec<ModelOn<'_>> = pairs
             .map(|(on, analysis)| ModelOn { name: on.name, analysis, suite: on.suite })
@@ -76,10 +77,11 @@ impl Request {
         })
     }
 
-    /// How a suite is scaled, and that in words.
+    /// How a suite is scaled for these analyses, and that in words.
     pub(super) fn scaling(
         &self,
         target: Option<(&str, TargetSpectrum)>,
+        analyses: &[Analysis],
     ) -> Result<(Scaling, String), AssessmentError> {
         let code = self.given("code-spectrum");
         let of_code =
@@ -113,10 +115,17 @@ impl Request {
                 "two of them",
             ));
         }
-        let range_s = range_s.ok_or_else(|| {
-            refuse("periods", "the range of periods beside the spectrum, 0.6 s..3.8 s", "nothing")
+        if let Some(range_s) = range_s {
+            return Ok((Scaling::Target(spectrum, range_s), format!(" scaled to {words}")));
+        }
+        let range_s = effective_periods(analyses, &spectrum).ok_or_else(|| {
+            let expected = "the range of periods beside the spectrum, 0.6 s..3.8 s: the model has no \
+                            effective period by hand, of which it would be 0.75 to 1.25";
+            refuse("periods", expected, "nothing")
         })?;
-        Ok((Scaling::Target(spectrum, range_s), format!(" scaled to {words}")))
+        let [from, to] = range_s.map(|period_s| format!("{period_s:.3}"));
+        let words = format!(" scaled to {words} from {from} s to {to} s (0.75 to 1.25 T_M)");
+        Ok((Scaling::Target(spectrum, range_s), words))
     }
 
     /// One level of a measure, else a factor.
@@ -200,6 +209,16 @@ impl Request {
         let models = Models::new(source, text, &[], &[("over", over.to_owned())], true)?;
         Ok(Sweep::new(models, motion))
     }
+}
+
+/// The range in which chapter 17 of ASCE/SEI 7 compares pairs with the spectrum, in s: from 0.75 of the
+/// effective period with the stiffest bound to 1.25 of it with the softest; none where a model has none.
+fn effective_periods(analyses: &[Analysis], spectrum: &TargetSpectrum) -> Option<[f64; 2]> {
+    let of = |analysis: &Analysis| lateral(analysis, spectrum);
+    let all: Option<Vec<LateralForce>> = analyses.iter().flat_map(of).collect();
+    let periods_s = || all.iter().flatten().map(|found| found.period_s);
+    let (shortest_s, longest_s) = (periods_s().reduce(f64::min)?, periods_s().reduce(f64::max)?);
+    Some([0.75 * shortest_s, 1.25 * longest_s])
 }
 
 /// Two periods in s, `0.6 s..3.8 s`.

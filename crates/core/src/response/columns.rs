@@ -5,6 +5,8 @@ use crate::model::Model;
 
 /// A quantity of a point at a knot: history, knot, point.
 type OfPoint = fn(&History, usize, usize) -> f64;
+/// The same in two directions.
+type OfPointInPlane = fn(&HistoryAlongY, &History, usize, usize) -> [f64; 2];
 
 impl Response {
     /// Names and values of all columns of the history at some knots, as [`History::columns`]; in two
@@ -13,10 +15,13 @@ impl Response {
     #[must_use]
     pub fn columns(&self, knots: &[usize]) -> Vec<(String, Vec<f64>)> {
         let Some(history) = &self.history else { return Vec::new() };
-        let along_x = history.columns(knots);
         let Some(y) = self.in_plane.as_ref().and_then(|plane| plane.history.as_ref()) else {
-            return along_x;
+            return history.columns(knots);
         };
+        if y.points.is_some() {
+            return y.columns_of_modes(history, knots);
+        }
+        let along_x = history.columns(knots);
         let as_along_x = y.as_along_x(history);
         let along_y = as_along_x.columns(knots).into_iter();
         let pairs = along_x.into_iter().zip(along_y);
@@ -28,6 +33,20 @@ impl Response {
     }
 }
 
+impl Response {
+    /// Force of the block on its slider along x at the knots of the history in N, as [`History::slider_force_n`].
+    #[must_use]
+    pub fn slider_force_n(&self, model: &Model) -> Vec<f64> {
+        let Some(history) = &self.history else { return Vec::new() };
+        let y = self.in_plane.as_ref().and_then(|plane| plane.history.as_ref());
+        let of = |knot: usize| match y {
+            Some(y) => y.slider_force_n(history, model, knot)[0],
+            None => history.slider_force_n(model, knot),
+        };
+        (0..history.len()).map(of).collect()
+    }
+}
+
 /// `sliding_displacement_m` along y: `sliding_displacement_y_m`.
 fn along_y_name(name: &str) -> String {
     const UNITS: [&str; 4] = ["_m_per_s2", "_m_per_s", "_m", "_n"];
@@ -36,6 +55,73 @@ fn along_y_name(name: &str) -> String {
 }
 
 impl HistoryAlongY {
+    /// The columns where the structure is given by its modes: those of the block, then those of the points, each
+    /// along x and along y.
+    fn columns_of_modes(&self, x: &History, knots: &[usize]) -> Vec<(String, Vec<f64>)> {
+        type Lists<'a> = [&'a [f64]; 2];
+        let of_block: [(&str, Lists<'_>); 5] = [
+            (
+                "table_acceleration_m_per_s2",
+                [&x.table_acceleration_m_per_s2, &self.table_acceleration_m_per_s2],
+            ),
+            ("sliding_displacement_m", [&x.sliding_displacement_m, &self.sliding_displacement_m]),
+            (
+                "sliding_velocity_m_per_s",
+                [&x.sliding_velocity_m_per_s, &self.sliding_velocity_m_per_s],
+            ),
+            (
+                "block_acceleration_m_per_s2",
+                [&x.block_acceleration_m_per_s2, &self.block_acceleration_m_per_s2],
+            ),
+            ("friction_force_n", [&x.friction_force_n, &self.friction_force_n]),
+        ];
+        let at = |list: &[f64]| -> Vec<f64> { knots.iter().map(|&knot| list[knot]).collect() };
+        let mut columns = vec![("time_s".to_owned(), at(&x.time_s))];
+        for (name, [of_x, of_y]) in of_block {
+            columns.push((name.to_owned(), at(of_x)));
+            columns.push((along_y_name(name), at(of_y)));
+        }
+        let kinds: [(&str, OfPointInPlane); 3] = [
+            ("displacement_m", Self::point_displacement),
+            ("velocity_m_per_s", Self::point_velocity),
+            ("acceleration_m_per_s2", Self::point_acceleration),
+        ];
+        for i in 0..self.point_count(x) {
+            for (kind, value) in kinds {
+                let name = format!("point{}_{kind}", i + 1);
+                let both = knots.iter().map(|&knot| value(self, x, knot, i));
+                let (of_x, of_y) = both.map(|[x, y]| (x, y)).unzip();
+                columns.extend([(name.clone(), of_x), (along_y_name(&name), of_y)]);
+            }
+        }
+        columns
+    }
+
+    /// Force of the block on its slider along x and y at a knot in N, friction, spring and damper together, as
+    /// [`History::slider_force_n`].
+    #[must_use]
+    pub fn slider_force_n(&self, along_x: &History, model: &Model, knot: usize) -> [f64; 2] {
+        let block = [&along_x.block_acceleration_m_per_s2, &self.block_acceleration_m_per_s2]
+            .map(|a| a[knot]);
+        let Some(structure) = model.structure() else {
+            let n = along_x.storeys;
+            let own = &self.storey_acceleration_m_per_s2[knot * n..(knot + 1) * n];
+            let floors = [along_x.storey_accelerations(knot), own].map(|floors| {
+                model.frame().masses_kg.iter().zip(floors).map(|(m, a)| m * a).sum::<f64>()
+            });
+            return [0, 1].map(|axis| -(model.block().mass_kg * block[axis] + floors[axis]));
+        };
+        // M_tot b + Σ m (a − ℓ·b) ℓ, with the accelerations a of the oscillators along their directions ℓ.
+        let mut inertia = block.map(|b| model.total_mass_kg() * b);
+        let oscillators = structure.oscillators_in_plane();
+        for (mode, a) in oscillators.iter().zip(along_x.storey_accelerations(knot)) {
+            let [x, y] = mode.direction;
+            let own = mode.mass_kg * (a - (x * block[0] + y * block[1]));
+            inertia = [inertia[0] + own * x, inertia[1] + own * y];
+        }
+        inertia.map(|force| -force)
+    }
+
     /// A history whose quantities are those along y.
     fn as_along_x(&self, x: &History) -> History {
         let y = self.clone();

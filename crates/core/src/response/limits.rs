@@ -25,12 +25,12 @@ pub fn flat_geometry(model: &Model, demands: &Demands) -> Option<Notice> {
     }
     let short = if ratio < 1.0 {
         let percent = 100.0 * (1.0 - (1.0 - ratio * ratio).sqrt());
-        format!("its restoring force is {percent:.0} % below that of the dish")
+        format!("here its restoring force is {percent:.0} % below that of the dish")
     } else {
-        "a dish of that radius ends before".to_owned()
+        "a dish of that radius does not reach so far".to_owned()
     };
     let message = format!(
-        "{what} slides {ratio:.2} of its radius: flat geometry holds to {FLAT}, and there {short}"
+        "{what} slides {ratio:.2} of its radius: beyond {FLAT} flat geometry is in error; {short}"
     );
     Some(Notice::new(NoticeKind::FlatGeometry, message))
 }
@@ -99,12 +99,12 @@ mod tests {
         assert_eq!(found.kind, NoticeKind::FlatGeometry);
         assert_eq!(
             found.message,
-            "the block slides 0.60 of its radius: flat geometry holds to 0.2, and there its restoring \
+            "the block slides 0.60 of its radius: beyond 0.2 flat geometry is in error; here its restoring \
              force is 20 % below that of the dish"
         );
         let beyond = flat_geometry(&pendulum, &slid(2.0)).unwrap();
         assert!(
-            beyond.message.ends_with("a dish of that radius ends before"),
+            beyond.message.ends_with("a dish of that radius does not reach so far"),
             "{}",
             beyond.message
         );

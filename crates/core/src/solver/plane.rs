@@ -4,6 +4,7 @@
 //! slows down with the speed (`near_rest`), in which nothing is singular. What is in between is in `stop`: where
 //! a slip has come to rest. Peaks are those of the continuous motion (`peaks`).
 
+mod mass;
 mod near_rest;
 mod peaks;
 mod record;
@@ -16,6 +17,7 @@ mod straight;
 mod summary;
 mod system;
 mod terms;
+mod turning;
 
 use self::peaks::Peaks;
 use self::record::{Knot, Recorder};
@@ -90,7 +92,7 @@ impl<'a> Plane<'a> {
             least: Least::default(),
             path_m: 0.0,
             events: Vec::new(),
-            recorder: with_history.then(|| Recorder::new(system.storeys)),
+            recorder: with_history.then(|| Recorder::new(&system)),
             scratch: [vec![0.0; modes], vec![0.0; modes]],
             system,
             state,
@@ -135,25 +137,24 @@ impl<'a> Plane<'a> {
         let (push, hold, normal_n) = (norm(at.push), self.system.hold, loads.normal[0]);
         if is_stuck {
             let leaves = core::mem::take(&mut self.is_released) || self.leaves(loads, &at);
-            return leaves.then(|| Due::Slip(self.direction_of(at.push, loads)));
+            return leaves.then(|| Due::Slip(self.direction_of(&at, loads)));
         }
         if hold.excess(push, normal_n) <= 0.0 {
             return Some(Due::Stick(hold.margin(push, normal_n)));
         }
-        Some(Due::GoOn(at.push.map(|p| p / push)))
+        Some(Due::GoOn(self.system.departure(at.push, at.friction)))
     }
 
-    /// The direction of a push; without one, that in which it grows.
-    fn direction_of(&mut self, push: [f64; 2], loads: Loads) -> [f64; 2] {
-        let mut growing = push;
-        if push == [0.0; 2] {
+    /// The direction in which a push is followed; without one, that in which it grows.
+    fn direction_of(&mut self, at: &Instant, loads: Loads) -> [f64; 2] {
+        let mut growing = at.push;
+        if at.push == [0.0; 2] {
             self.expand_stick(loads, 1e-3);
             let [x, y] = &self.series.friction;
             let orders = x.iter().zip(y).map(|(x, y)| [*x, *y]);
             growing = orders.into_iter().find(|p| *p != [0.0; 2]).unwrap_or([1.0, 0.0]);
         }
-        let size = norm(growing);
-        growing.map(|p| p / size)
+        self.system.departure(growing, at.friction)
     }
 
     /// Whether a stick is beyond its bound, or at it and about to leave it: the first derivative of the distance
@@ -178,7 +179,7 @@ impl<'a> Plane<'a> {
             Mode::Stick => (table, at.push.map(|p| -system.block_kg * p)),
             Mode::Slip(_) => {
                 let taken = self.direction.map(|u| at.friction * u);
-                let block = [at.pull[0] - taken[0], at.pull[1] - taken[1]];
+                let block = system.moved([at.pull[0] - taken[0], at.pull[1] - taken[1]]);
                 (block, taken.map(|f| -system.block_kg * f))
             }
         };
@@ -214,7 +215,8 @@ impl<'a> Phase<'a> for Plane<'a> {
         };
         // Steps without length are as many as events at most.
         walk.course.events_in_interval += 1;
-        if walk.phase.series.kind == Kind::NearRest && to_s < stretch.to_s {
+        let is_near_rest = matches!(walk.phase.series.kind, Kind::NearRest | Kind::Turning);
+        if is_near_rest && to_s < stretch.to_s {
             walk.record(stretch, to_s, false);
         }
         Ok(to_s)

@@ -275,7 +275,7 @@ fn solve_in_plane(
         let response = solve_along_x(instructions, &model, &tables, ground, how, workspace)?;
         return Ok(plane::placed(response, axis));
     }
-    let masses = 1.0 + 2.0 * model.storeys() as f64;
+    let masses = 1.0 + model.degrees_in_plane() as f64;
     let (rate, limit) = (system.rate_rad_per_s, WORK_LIMIT);
     let work = rate * motion.duration_s() * masses * masses;
     if !(work <= limit) {

@@ -21,7 +21,8 @@ const MEMORY_LIMIT: u64 = 4 << 30;
 pub(super) fn fits(model: &Model, samples: usize) -> Result<(), SolveError> {
     let surfaces = model.law(false).surface_count();
     // t, Ü, s, ṡ, block, T, five energies; q, q̇ and acceleration; r, ṙ and acceleration; u.
-    let numbers = 11 + 3 * model.storeys() + 3 * model.contents().len() + surfaces;
+    let storeys = model.storeys().max(model.storeys_in_plane());
+    let numbers = 11 + 3 * storeys + 3 * model.contents().len() + surfaces;
     let (bytes, limit) = (BYTES_A_NUMBER * samples as u64 * numbers as u64, MEMORY_LIMIT);
     if bytes <= limit {
         return Ok(());

@@ -52,10 +52,18 @@ pub(crate) fn suspicious(model: &Model) -> Vec<Notice> {
 const ENOUGH_MODES: f64 = 0.9;
 const ALL_MODES: f64 = 1.0 - 1e-6;
 
-/// What the modes of a structure lack of its mass.
+/// What the modes of a structure lack of its mass; in two directions along the axis along which they lack more.
 fn missing_mass(model: &Model) -> Option<Notice> {
     let structure = model.structure()?;
-    let missing_kg = structure.missing_mass_kg();
+    let along_x = (structure.missing_mass_kg(), "");
+    let in_plane = model.is_in_plane() && !structure.in_plane.is_empty();
+    let [_, [_, of_y]] = structure.mass_in_plane_kg();
+    let missing_y_kg = (structure.mass_kg - of_y).max(0.0);
+    let (missing_kg, axis) = match in_plane {
+        true if missing_y_kg > along_x.0 => (missing_y_kg, " along y"),
+        true => (along_x.0, " along x"),
+        false => along_x,
+    };
     let found = 1.0 - missing_kg / structure.mass_kg;
     let kind = match found {
         found if found < ENOUGH_MODES => NoticeKind::MissingModes,
@@ -64,7 +72,7 @@ fn missing_mass(model: &Model) -> Option<Notice> {
     };
     let more = if found < ENOUGH_MODES { "; below 90 % more modes are needed" } else { "" };
     let message = format!(
-        "the modes have {:.4} % of the structure's mass; the rest, {:.4} % or {} kg, moves with the \
+        "the modes have {:.4} % of the structure's mass{axis}; the rest, {:.4} % or {} kg, moves with the \
          block{more}",
         100.0 * found,
         100.0 - 100.0 * found,

@@ -240,11 +240,11 @@ impl Study {
         highest_hz: f64,
         longest_step_s: f64,
     ) -> Vec<NoticeKind> {
-        let of_record = self.records.get(case.record as usize).map(|record| &record.warnings);
+        let of_record = self.records.get(case.record as usize).map(|record| &record.notices);
         let of_model = coarse_sampling(highest_hz, longest_step_s);
         let of_model = of_model.into_iter().map(|warning| warning.kind);
-        let of_record = of_record.into_iter().flatten();
-        of_record.chain(suspicious).copied().chain(of_model).collect()
+        let of_record = of_record.into_iter().flatten().map(|notice| notice.kind);
+        of_record.chain(suspicious.iter().copied()).chain(of_model).collect()
     }
 
     /// The motion of the runs that agree on its origin; what rows say of it is of the record as it stands.
@@ -365,13 +365,7 @@ mod tests {
                 libm::sin(7.0 * t + phase) * libm::sin(23.0 * t) * libm::exp(-0.2 * t)
             };
             let motion = GroundMotion::evenly_spaced(dt_s, (0..600).map(wave).collect(), None);
-            Record {
-                name: name.to_owned(),
-                channel: String::new(),
-                motion: motion.unwrap(),
-                warnings: vec![],
-                pair: None,
-            }
+            Record::new(name, motion.unwrap())
         };
         let records = vec![record("a", 0.0, 0.01), record("b", 1.0, 0.02)];
         Study::new(&plan, "m.toml", MODEL, records).unwrap()
@@ -393,13 +387,7 @@ mod tests {
         let plan = Plan::parse("p.toml", text).unwrap();
         let wave = |i: u32| 4.0 * libm::sin(0.07 * f64::from(i)) * libm::sin(0.23 * f64::from(i));
         let motion = GroundMotion::evenly_spaced(0.01, (0..1_000_000).map(wave).collect(), None);
-        let record = Record {
-            name: "long".to_owned(),
-            channel: String::new(),
-            motion: motion.unwrap(),
-            warnings: vec![],
-            pair: None,
-        };
+        let record = Record::new("long", motion.unwrap());
         let study = Study::new(&plan, "m.toml", MODEL, vec![record]).unwrap();
         let (asked, done) = (AtomicU64::new(0), AtomicU64::new(0));
         let follow = |runs: u64| {
@@ -458,13 +446,7 @@ mod tests {
                 libm::sin((5.0 + phase) * t + phase) * libm::sin(19.0 * t) * libm::exp(-0.3 * t)
             };
             let motion = GroundMotion::evenly_spaced(0.01, (0..500).map(wave).collect(), None);
-            Record {
-                name: format!("r{i}"),
-                channel: String::new(),
-                motion: motion.unwrap(),
-                warnings: vec![],
-                pair: Some(i / 2),
-            }
+            Record { pair: Some(i / 2), ..Record::new(format!("r{i}"), motion.unwrap()) }
         };
         Study::new(&plan, "m.toml", MODEL, (0..4).map(record).collect()).unwrap()
     }
@@ -550,8 +532,7 @@ mod tests {
              [vary]\n\"motion.rotate\" = { values = [\"30 deg\"] }\n[sampling]\nmethod = \"grid\"",
         );
         let motion = GroundMotion::evenly_spaced(0.01, vec![1.0; 9], None).unwrap();
-        let (name, channel) = ("r".to_owned(), String::new());
-        let record = Record { name, channel, motion, warnings: vec![], pair: None };
+        let record = Record::new("r", motion);
         let error = Study::new(&plan.unwrap(), "m.toml", MODEL, vec![record]).unwrap_err();
         assert_eq!(
             error.to_string(),

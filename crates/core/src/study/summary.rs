@@ -394,13 +394,7 @@ mod tests {
         let wave = |i: u32| 4.0 * libm::sin(0.07 * f64::from(i)) * libm::sin(0.23 * f64::from(i));
         let motion =
             crate::motion::GroundMotion::evenly_spaced(0.01, (0..400).map(wave).collect(), None);
-        let record = Record {
-            name: "a".to_owned(),
-            channel: String::new(),
-            motion: motion.unwrap(),
-            warnings: vec![],
-            pair: None,
-        };
+        let record = Record::new("a", motion.unwrap());
         let study = Study::new(&plan, "m.toml", model, vec![record]).unwrap();
         let engine = Engine::unwatched();
         let rows = study.rows(0..study.runs(), &engine).unwrap();

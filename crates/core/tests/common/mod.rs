@@ -9,6 +9,8 @@ pub mod cases;
 pub mod compare;
 pub mod dd;
 pub mod devices;
+pub mod eigen;
+pub mod in_plane;
 pub mod nasty;
 pub mod plain;
 pub mod random;

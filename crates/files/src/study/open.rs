@@ -112,13 +112,7 @@ impl OpenStudy {
         {
             let names = [Some(name.clone()), vertical_name].into_iter().flatten();
             inputs.extend(names.zip(loaded.sources.iter().map(|source| source.sha256.clone())));
-            records.push(Record {
-                name,
-                channel: loaded.channel.clone(),
-                motion: loaded.motion.clone(),
-                warnings: loaded.warnings.iter().map(|warning| warning.kind).collect(),
-                pair: pairs.then_some(index / 2),
-            });
+            records.push(Record::read(name, loaded.loaded, pairs.then_some(index / 2)));
             record_paths.push(paths);
         }
         // The model's name in messages goes into rows: it is the one in the plan, on every machine.

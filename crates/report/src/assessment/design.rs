@@ -246,45 +246,32 @@ impl DesignReport<'_> {
             .collect()
     }
 
+    /// The row of a design, and those with its bounds of friction where they were run.
+    fn with_bounds(&self, name: &str, point: &Point) -> Vec<Vec<String>> {
+        let mut rows = vec![self.row(name, point.design, &point.figures)];
+        if let Some((factors, bounded)) = self.bounded()
+            && let Some(b) = bounded.iter().find(|b| b.design == point.design)
+        {
+            let bounds = factors.into_iter().zip([&b.lower, &b.upper]);
+            let row = |(factor, figures)| {
+                self.row(&format!("  friction × {}", compact(factor)), b.design, figures)
+            };
+            rows.extend(bounds.map(row));
+        }
+        rows
+    }
+
     fn tables(&self) -> Vec<(String, Vec<Vec<String>>)> {
         let mut rows = vec![self.heads()];
         let main = self.run.found.chosen().or(self.run.found.nearest);
         let name = if self.run.found.front.is_empty() { "nearest" } else { "chosen" };
         if let Some(point) = main {
-            rows.push(self.row(name, point.design, &point.figures));
-            if let Some(([lower, upper], bounded)) = self.bounded()
-                && let Some(b) = bounded.iter().find(|b| b.design == point.design)
-            {
-                rows.push(self.row(
-                    &format!("  friction × {}", compact(lower)),
-                    b.design,
-                    &b.lower,
-                ));
-                rows.push(self.row(
-                    &format!("  friction × {}", compact(upper)),
-                    b.design,
-                    &b.upper,
-                ));
-            }
+            rows.extend(self.with_bounds(name, &point));
         }
         if let Some(robust) = self.robust()
             && main != Some(robust)
         {
-            rows.push(self.row("robust", robust.design, &robust.figures));
-            if let Some(([lower, upper], bounded)) = self.bounded()
-                && let Some(b) = bounded.iter().find(|b| b.design == robust.design)
-            {
-                rows.push(self.row(
-                    &format!("  friction × {}", compact(lower)),
-                    b.design,
-                    &b.lower,
-                ));
-                rows.push(self.row(
-                    &format!("  friction × {}", compact(upper)),
-                    b.design,
-                    &b.upper,
-                ));
-            }
+            rows.extend(self.with_bounds("robust", &robust));
         }
         let mut tables = vec![("Choice".to_owned(), rows)];
         if self.run.found.front.len() > 1 {

@@ -392,8 +392,7 @@ impl HistoriesReport<'_> {
         if self.factors.is_some() {
             method.push(
                 "The bounds of friction are products of property modification factors, of the least and of \
-                 the largest: λ = (1 + 0.75 (λ_ae − 1)) λ_test λ_spec, ASCE/SEI 7, section 17.2.8.4. The \
-                 limits that the code sets on these products are not applied."
+                 the largest: λ = (1 + 0.75 (λ_ae − 1)) λ_test λ_spec, ASCE/SEI 7, section 17.2.8.4."
                     .to_owned(),
             );
         }
@@ -416,14 +415,17 @@ impl HistoriesReport<'_> {
         if models.iter().all(|model| model.bounds.len() == 1) {
             return Vec::new();
         }
-        if models.len() == 1 {
-            return vec!["* governs: the bound of friction with the larger value, of each record and of all.".to_owned()];
-        }
-        vec![
-            "Each column is of the bound of friction that governs, named in its head; runs.csv has every \
-             run."
-                .to_owned(),
-        ]
+        let governs = match models.len() {
+            1 => {
+                "* governs: the bound of friction with the larger value, of each record and of all."
+            }
+            _ => {
+                "Each column is of the bound of friction that governs, named in its head; runs.csv has \
+                 every run."
+            }
+        };
+        let limits = self.factors.and_then(code::limits_not_reached);
+        core::iter::once(governs.to_owned()).chain(limits).collect()
     }
 
     /// What was noticed of the records and the runs, each kind once with the record that gave it first.

@@ -90,14 +90,18 @@ pub fn single(id: &'static str, title: &str, caption: String, panel: Panel) -> D
 
 /// A figure of panels one above the other.
 pub fn stacked(id: &'static str, title: &str, caption: String, panels: Vec<Panel>) -> Drawn {
-    let figure = Figure {
-        id,
-        title: title.to_owned(),
-        description: caption.clone(),
-        layout: Layout::Stacked,
-        panels,
-        shaded: Vec::new(),
-    };
+    laid(Layout::Stacked, (id, title), caption, panels)
+}
+
+/// A figure of panels laid out in another way: its identifier and title, its caption.
+pub fn laid(
+    layout: Layout,
+    (id, title): (&'static str, &str),
+    caption: String,
+    panels: Vec<Panel>,
+) -> Drawn {
+    let (title, description, shaded) = (title.to_owned(), caption.clone(), Vec::new());
+    let figure = Figure { id, title, description, layout, panels, shaded };
     Drawn { id, caption, svg: figure.to_svg() }
 }
 

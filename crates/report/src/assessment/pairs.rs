@@ -44,12 +44,14 @@ pub(crate) fn figure(matched: &Matched) -> Drawn {
     misfit.limits =
         vec![Limit { value: LEAST_SHARE, label: "90 %".to_owned(), style: Style::LIMIT }];
     let caption = format!(
-        "Spectra of {} in the maximum direction, each scaled by one factor, over the periods that \
-         are given; below, their mean over the target: least {} at {} s.",
+        "Spectra of {} in the maximum direction, each scaled by one factor, from {} s to {} s; below, \
+         their mean over the target: least {} at {} s.",
         match matched.factors.len() {
             1 => "one pair".to_owned(),
             pairs => format!("{pairs} pairs"),
         },
+        cell(from),
+        cell(to),
         cell(matched.least[0]),
         cell(matched.least[1])
     );

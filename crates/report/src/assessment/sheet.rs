@@ -217,7 +217,13 @@ pub(crate) fn record_table(records: &[Recorded]) -> Option<Vec<Vec<String>>> {
     let known = known.filter(|name| said.iter().flatten().any(|(other, _)| other == name));
     let known: Vec<&str> = known.collect();
     let factors = records.iter().any(|on| on.factor.is_some());
-    let peak = if factors { "PGA (g)" } else { "PGA as recorded (g)" };
+    let in_plane = records.iter().any(|on| on.origin.along_y.is_some());
+    let peak = match (factors, in_plane) {
+        (true, false) => "PGA (g)",
+        (true, true) => "PGA, resultant (g)",
+        (false, false) => "PGA as recorded (g)",
+        (false, true) => "PGA as recorded, resultant (g)",
+    };
     let heads = core::iter::once("Record").chain(known.iter().copied());
     let heads = heads.chain(factors.then_some("Factor")).chain([peak]);
     let row = |(on, said): (&Recorded, &Vec<(&str, String)>)| -> Vec<String> {

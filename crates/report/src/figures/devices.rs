@@ -6,11 +6,12 @@ use slipstick::slider::{Direction, Surface};
 
 use super::force::vertical_at_knots;
 use super::histories::{SHADING, history_panel, over_time};
-use super::{Drawn, Scene, Trace, drawn};
+use super::{Drawn, Scene, Trace};
+use crate::assessment::lines::single;
 use crate::display::Quantity;
 use crate::markup::shortened;
 use crate::number::compact;
-use crate::plot::{Axis, Figure, Layout, Limit, Panel, Series, Shape, Style};
+use crate::plot::{Axis, Limit, Panel, Series, Shape, Style};
 
 /// How many instants of the run are marked on its law.
 const MARKS: usize = 240;
@@ -81,15 +82,7 @@ pub fn friction_by_speed(scene: &Scene) -> Option<Drawn> {
                    force over the normal force at instants of the run. Where dots crowd, the block \
                    slides for longest."
             .to_owned();
-    let figure = Figure {
-        id: "friction-by-speed",
-        title: "Coefficient of friction over sliding speed".to_owned(),
-        description: caption.clone(),
-        layout: Layout::Stacked,
-        panels: vec![panel],
-        shaded: Vec::new(),
-    };
-    Some(drawn(&figure, caption))
+    Some(single("friction-by-speed", "Coefficient of friction over sliding speed", caption, panel))
 }
 
 /// Displacement of each surface in series over time, with the end of its travel.

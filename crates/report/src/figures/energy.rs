@@ -1,9 +1,10 @@
 //! Where the energy goes.
 
-use super::{Drawn, Scene, drawn};
+use super::{Drawn, Scene};
+use crate::assessment::lines::{panel, single};
 use crate::display::Quantity;
 use crate::number::printed;
-use crate::plot::{Axis, Figure, Layout, Panel, Series, Shape, Style};
+use crate::plot::{Axis, Series, Shape, Style};
 
 /// Energy by kind, stacked up to the input; none where the certificate has no energies.
 pub fn by_kind(scene: &Scene) -> Option<Drawn> {
@@ -36,15 +37,8 @@ pub fn by_kind(scene: &Scene) -> Option<Drawn> {
         input.iter().chain(series.iter().flat_map(|s| &s.points)).map(|point| point[1]).collect();
     let style = Style { width: 1.4, ..Style::DASHED };
     series.push(Series { label: "input".to_owned(), style, shape: Shape::History, points: input });
-    let panel = Panel {
-        x: scene.time_axis(),
-        y: Axis::from_zero(unit.label("Energy"), values),
-        height: 190.0,
-        series,
-        limits: Vec::new(),
-        peak: None,
-        note: String::new(),
-    };
+    let panel =
+        panel(scene.time_axis(), Axis::from_zero(unit.label("Energy"), values), 190.0, series);
     let last = |values: &[f64]| values.last().copied().unwrap_or(0.0);
     let input_end = last(&energy.input_j);
     let mut caption = String::from(
@@ -59,13 +53,5 @@ pub fn by_kind(scene: &Scene) -> Option<Drawn> {
             printed(100.0 * last(&energy.damping_j) / input_end, 3),
         ));
     }
-    let figure = Figure {
-        id: "energy",
-        title: "Energy by kind over time".to_owned(),
-        description: caption.clone(),
-        layout: Layout::Stacked,
-        panels: vec![panel],
-        shaded: Vec::new(),
-    };
-    Some(drawn(&figure, caption))
+    Some(single("energy", "Energy by kind over time", caption, panel))
 }

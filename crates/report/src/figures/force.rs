@@ -5,6 +5,7 @@ use slipstick::response::History;
 use slipstick::slider::Contact;
 
 use super::{Drawn, Scene, drawn};
+use crate::assessment::lines::laid;
 use crate::display::Quantity;
 use crate::number::printed;
 use crate::plot::{Axis, Figure, Layout, Limit, Panel, Series, Shape, Style};
@@ -96,15 +97,7 @@ pub fn loops(scene: &Scene) -> Drawn {
     if report.motion.vertical_m_per_s2().is_some() {
         caption.push_str(" Slips bend where the vertical motion changes the normal force.");
     }
-    let figure = Figure {
-        id: "hysteresis",
-        title: "Slider force over sliding displacement".to_owned(),
-        description: caption.clone(),
-        layout: Layout::Beside,
-        panels,
-        shaded: Vec::new(),
-    };
-    drawn(&figure, caption)
+    laid(Layout::Beside, ("hysteresis", "Slider force over sliding displacement"), caption, panels)
 }
 
 /// Pieces of the loop in which the block presses against a stop.

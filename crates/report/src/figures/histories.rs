@@ -144,7 +144,7 @@ pub fn accelerations(scene: &Scene) -> Drawn {
 }
 
 /// Demands of the storeys, or of the points of a structure by its modes.
-fn of_points(demands: &Demands) -> &[StoreyDemands] {
+pub(super) fn of_points(demands: &Demands) -> &[StoreyDemands] {
     if demands.points.is_empty() { &demands.storeys } else { &demands.points }
 }
 

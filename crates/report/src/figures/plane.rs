@@ -4,13 +4,14 @@ use core::f64::consts::TAU;
 
 use slipstick::response::{Demands, History, HistoryAlongY};
 
-use super::histories::{SHADING, history_panel, over_time};
+use super::histories::{SHADING, history_panel, of_points, over_time};
 use super::trace::Trace;
-use super::{Drawn, Scene, drawn, shown_note, shown_storeys};
+use super::{Drawn, Scene, shown_note, shown_storeys};
+use crate::assessment::lines::{laid, panel};
 use crate::display::{Quantity, Unit};
 use crate::markup::shortened;
 use crate::number::{compact, printed};
-use crate::plot::{Axis, Figure, Layout, Limit, Panel, Series, Shape, Style};
+use crate::plot::{Axis, Layout, Limit, Panel, Series, Shape, Style};
 
 const AXES: [&str; 2] = ["x", "y"];
 
@@ -88,15 +89,12 @@ fn orbits(scene: &Scene, s: Vector, friction: Vector) -> Drawn {
          sticks and lies on that of kinetic friction, against the velocity, while it slides.{varies}",
         if gap_m.is_some() { ", inside its gap" } else { "" }
     );
-    let figure = Figure {
-        id: "orbits",
-        title: "Orbits of sliding displacement and friction force".to_owned(),
-        description: caption.clone(),
-        layout: Layout::Square,
+    laid(
+        Layout::Square,
+        ("orbits", "Orbits of sliding displacement and friction force"),
+        caption,
         panels,
-        shaded: Vec::new(),
-    };
-    drawn(&figure, caption)
+    )
 }
 
 /// The orbit of a vector, with circles around it.
@@ -122,15 +120,7 @@ fn orbit(label: &str, unit: Unit, vector: Vector, circles: &[(&str, Style, f64)]
     let mut series: Vec<Series> = circles.iter().map(circle).collect();
     let (style, shape) = (Style::MAIN, Shape::Curve);
     series.push(Series { label: String::new(), style, shape, points });
-    Panel {
-        x: axis("x"),
-        y: axis("y"),
-        height: 0.0,
-        series,
-        limits: Vec::new(),
-        peak: None,
-        note: String::new(),
-    }
+    panel(axis("x"), axis("y"), 0.0, series)
 }
 
 /// Total accelerations of ground, block and floors along x and along y.
@@ -147,17 +137,16 @@ fn accelerations(scene: &Scene, y: &HistoryAlongY) -> Drawn {
     let peaks: Vec<f64> = storey_peaks(scene, |storey| storey.peak_acceleration_m_per_s2);
     let shown = shown_storeys(&peaks);
     for &i in &shown {
-        let floor = [&x.storey_acceleration_m_per_s2, &y.storey_acceleration_m_per_s2]
-            .map(|all| of_storey(x, all, i));
-        let name = of(&names.storey(i + 1));
+        let floor = over_knots(x, |knot| y.point_acceleration(x, knot, i));
+        let name = of(&names.point(i + 1));
         let vector = [&floor[0][..], &floor[1]];
         panels.extend(by_axis(scene, &name, unit, vector, |axis| {
-            axis.storeys[i].peak_acceleration_m_per_s2
+            of_points(axis)[i].peak_acceleration_m_per_s2
         }));
     }
     let caption = format!(
         "Total accelerations along x and along y, each on its own scale. {SHADING}{}",
-        shown_note(&shown, x.storeys)
+        shown_note(&shown, y.point_count(x))
     );
     let title = "Accelerations of ground, block and storeys over time";
     over_time(scene, ("accelerations", title), panels, caption)
@@ -171,35 +160,39 @@ fn drifts(scene: &Scene, y: &HistoryAlongY) -> Option<Drawn> {
     let shown = shown_storeys(&peaks);
     let mut panels = Vec::new();
     for &i in &shown {
-        let drift = [&x.storey_displacement_m, &y.storey_displacement_m].map(|all| {
-            let (own, below) =
-                (of_storey(x, all, i), i.checked_sub(1).map(|i| of_storey(x, all, i)));
-            match below {
-                None => own,
-                Some(below) => own.iter().zip(below).map(|(own, below)| own - below).collect(),
-            }
+        let drift = over_knots(x, |knot| {
+            let own = y.point_displacement(x, knot, i);
+            let below = i.checked_sub(1).map_or([0.0; 2], |i| y.point_displacement(x, knot, i));
+            [own[0] - below[0], own[1] - below[1]]
         });
-        let name = format!("{} drift", shortened(&report.summary.names.storey(i + 1), 24));
+        let name = format!("{} drift", shortened(&report.summary.names.point(i + 1), 24));
         panels.extend(by_axis(scene, &name, unit, [&drift[0], &drift[1]], |axis| {
-            axis.storeys[i].peak_drift_m
+            of_points(axis)[i].peak_drift_m
         }));
     }
-    let caption = format!(
-        "Drift of each storey along x and along y: displacement of its floor relative to the floor below \
-         (storey 1: relative to the block). {SHADING}{}",
-        shown_note(&shown, x.storeys)
-    );
+    let what = match report.model.structure() {
+        Some(_) => {
+            "Drift of each point along x and along y: its displacement relative to the point before it \
+             (the first: relative to the block)."
+        }
+        None => {
+            "Drift of each storey along x and along y: displacement of its floor relative to the floor \
+             below (storey 1: relative to the block)."
+        }
+    };
+    let caption = format!("{what} {SHADING}{}", shown_note(&shown, y.point_count(x)));
     (!panels.is_empty())
         .then(|| over_time(scene, ("drifts", "Storey drifts over time"), panels, caption))
 }
 
 fn storey_peaks(scene: &Scene, of: fn(&slipstick::response::StoreyDemands) -> f64) -> Vec<f64> {
-    scene.report.summary.demands.storeys.iter().map(of).collect()
+    of_points(&scene.report.summary.demands).iter().map(of).collect()
 }
 
-/// A storey's quantity at the knots, of what is stored knot by knot.
-fn of_storey(history: &History, all: &[f64], storey: usize) -> Vec<f64> {
-    all.iter().skip(storey).step_by(history.storeys).copied().collect()
+/// A vector at every knot, as lists along x and along y.
+fn over_knots(history: &History, of: impl Fn(usize) -> [f64; 2]) -> [Vec<f64>; 2] {
+    let (x, y) = (0..history.len()).map(|knot| of(knot).into()).unzip();
+    [x, y]
 }
 
 fn norm([x, y]: Vector, knot: usize) -> f64 {

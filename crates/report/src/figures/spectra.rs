@@ -1,10 +1,11 @@
 //! Floor response spectra.
 
-use super::{Drawn, drawn, shown_note, shown_storeys};
+use super::{Drawn, shown_note, shown_storeys};
+use crate::assessment::lines::{panel, single};
 use crate::display::Quantity;
 use crate::markup::shortened;
 use crate::number::printed;
-use crate::plot::{Axis, Figure, Layout, Panel, Series, Shape, Style};
+use crate::plot::{Axis, Series, Shape, Style};
 use slipstick::assessment::single::FloorSpectra;
 
 use crate::report::Report;
@@ -42,30 +43,19 @@ pub fn floors(report: &Report, spectra: &FloorSpectra) -> Option<Drawn> {
     let block = Style { width: 1.3, ..Style::MAIN };
     series.push(line(names.block().to_lowercase(), block, &spectra.block_m_per_s2));
     let values: Vec<f64> = series.iter().flat_map(|s| s.points.iter().map(|p| p[1])).collect();
-    let panel = Panel {
-        x: Axis::logarithmic("Period (s)", first, last),
-        y: Axis::from_zero(unit.label("Spectral acceleration"), values),
-        height: 230.0,
+    let panel = panel(
+        Axis::logarithmic("Period (s)", first, last),
+        Axis::from_zero(unit.label("Spectral acceleration"), values),
+        230.0,
         series,
-        limits: Vec::new(),
-        peak: None,
-        note: String::new(),
-    };
+    );
     let caption = format!(
         "Floor response spectra: largest total acceleration of a light oscillator with {} % damping \
          fixed to the block or a floor, over its period. For equipment, read its own period.{}",
         printed(100.0 * spectra.damping_ratio, 2),
         shown_note(&shown, peaks.len())
     );
-    let figure = Figure {
-        id: "floor-spectra",
-        title: "Floor response spectra".to_owned(),
-        description: caption.clone(),
-        layout: Layout::Stacked,
-        panels: vec![panel],
-        shaded: Vec::new(),
-    };
-    Some(drawn(&figure, caption))
+    Some(single("floor-spectra", "Floor response spectra", caption, panel))
 }
 
 fn largest(values: &[f64]) -> f64 {

@@ -5,12 +5,12 @@ use slipstick::laboratory::cyclic::{
 };
 
 use super::identify::estimate_json;
-use crate::assessment::lines::{BAND, band, line, single};
+use crate::assessment::lines::{BAND, band, laid, line, panel, single};
 use crate::display::{DisplayUnits, Quantity};
 use crate::figures::Drawn;
 use crate::json::Json;
 use crate::number::significant;
-use crate::plot::{Axis, Figure, Layout, Limit, Panel, Series, Shape, Style};
+use crate::plot::{Axis, Layout, Limit, Panel, Series, Shape, Style};
 
 /// One test.
 #[derive(Clone, Copy, Debug)]
@@ -305,15 +305,12 @@ fn figure(test: &Test, id: &'static str, display: DisplayUnits) -> Drawn {
         }
     }
     close(&mut stroke);
-    let loops = Panel {
-        x: Axis::covering(x.label("Displacement"), measured.iter().map(|p| p[0])),
-        y: Axis::covering(y.label("Force"), measured.iter().map(|p| p[1])),
-        height: 230.0,
+    let loops = panel(
+        Axis::covering(x.label("Displacement"), measured.iter().map(|p| p[0])),
+        Axis::covering(y.label("Force"), measured.iter().map(|p| p[1])),
+        230.0,
         series,
-        limits: Vec::new(),
-        peak: None,
-        note: String::new(),
-    };
+    );
     let by_cycle = |label: &str, style, value: &dyn Fn(&Cycle) -> Option<f64>| Series {
         label: label.to_owned(),
         style,
@@ -334,27 +331,21 @@ fn figure(test: &Test, id: &'static str, display: DisplayUnits) -> Drawn {
     ];
     let series: Vec<Series> = series.into_iter().filter(|s| !s.points.is_empty()).collect();
     let values: Vec<f64> = series.iter().flat_map(|s| s.points.iter().map(|p| p[1])).collect();
-    let cycles = Panel {
-        x: Axis::linear("Cycle", 0.5, test.fit.cycles.len() as f64 + 0.5),
-        y: Axis::from_zero(y.label("Friction"), values),
-        height: 230.0,
+    let cycles = panel(
+        Axis::linear("Cycle", 0.5, test.fit.cycles.len() as f64 + 0.5),
+        Axis::from_zero(y.label("Friction"), values),
+        230.0,
         series,
-        limits: Vec::new(),
-        peak: None,
-        note: String::new(),
-    };
+    );
     let caption = format!(
         "{}: force over displacement, measured and fitted where the block slides, and friction cycle \
          by cycle.",
         test.name
     );
-    let figure = Figure {
-        id,
-        title: format!("Force over displacement, {}", test.name),
-        description: caption.clone(),
-        layout: Layout::Beside,
-        panels: vec![loops, cycles],
-        shaded: Vec::new(),
-    };
-    Drawn { id, caption, svg: figure.to_svg() }
+    laid(
+        Layout::Beside,
+        (id, &format!("Force over displacement, {}", test.name)),
+        caption,
+        vec![loops, cycles],
+    )
 }

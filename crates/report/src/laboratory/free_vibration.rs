@@ -4,12 +4,12 @@ use slipstick::input::Channel;
 use slipstick::laboratory::free_vibration::FreeVibration;
 
 use super::compare::{quantity, title};
-use crate::assessment::lines::single;
+use crate::assessment::lines::{panel, single};
 use crate::display::DisplayUnits;
 use crate::figures::Drawn;
 use crate::json::Json;
 use crate::number::significant;
-use crate::plot::{Axis, Panel, Series, Shape, Style};
+use crate::plot::{Axis, Series, Shape, Style};
 
 /// What the intervals assume.
 pub const ASSUMPTION: &str = "95 % intervals by profile likelihood: one linear mode with viscous \
@@ -71,15 +71,12 @@ pub fn figures(
     }
     let all: Vec<f64> = series.iter().flat_map(|s| s.points.iter().map(|p| p[1])).collect();
     let ends = [times_s.first(), times_s.last()].map(|t| t.copied().unwrap_or(0.0));
-    let panel = Panel {
-        x: Axis::linear("Time (s)", ends[0], ends[1]),
-        y: Axis::covering(unit.label(&title(channel)), all),
-        height: 200.0,
+    let panel = panel(
+        Axis::linear("Time (s)", ends[0], ends[1]),
+        Axis::covering(unit.label(&title(channel)), all),
+        200.0,
         series,
-        limits: Vec::new(),
-        peak: None,
-        note: String::new(),
-    };
+    );
     let caption =
         "Free vibration, measured (wide) and the decaying oscillation that fits best (thin)."
             .to_owned();

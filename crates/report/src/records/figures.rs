@@ -4,7 +4,7 @@
 use slipstick::motion::{GroundMotion, Quantity, Spectrum, processing::Step};
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 
-use crate::assessment::lines::single;
+use crate::assessment::lines::{panel, single};
 use crate::display::{DisplayUnits, Quantity as Shown, Unit};
 use crate::figures::{Drawn, Trace};
 use crate::number::{compact, printed};
@@ -206,14 +206,11 @@ fn spectra(spectrum: &Spectrum, display: DisplayUnits, id: &'static str) -> Opti
                                      displacement of an oscillator, over its period.",
         )
     };
-    let panel = Panel {
-        x: Axis::logarithmic("Period (s)", first, last),
-        y: Axis::from_zero(unit.label(name), values),
-        height: SPECTRUM_HEIGHT,
+    let panel = panel(
+        Axis::logarithmic("Period (s)", first, last),
+        Axis::from_zero(unit.label(name), values),
+        SPECTRUM_HEIGHT,
         series,
-        limits: Vec::new(),
-        peak: None,
-        note: String::new(),
-    };
+    );
     Some(single(id, name, caption.to_owned(), panel))
 }

@@ -97,12 +97,17 @@ fn figure_keys(figures: &Figures) -> [(&'static str, Json); 4] {
 /// What a file says of where it was recorded.
 fn origin_keys(origin: &Origin) -> Vec<(&'static str, Json)> {
     let text = |text: &Option<String>| text.as_deref().map_or(Json::Null, Json::from);
-    vec![
+    let mut keys = vec![
         ("event", text(&origin.event)),
         ("station", text(&origin.station)),
         ("component", text(&origin.component)),
         ("azimuth_deg", origin.azimuth_deg.into()),
-    ]
+    ];
+    if let Some(y) = &origin.along_y {
+        keys.push(("component_y", text(&y.component)));
+        keys.push(("azimuth_y_deg", y.azimuth_deg.into()));
+    }
+    keys
 }
 
 /// The records that an answer is of, each with what its file says and what reading it gave notice of.

@@ -1,6 +1,7 @@
 /** The page: state in, pictures out. It draws; the workers compute. */
 
 import { Address } from "./address";
+import { Compare } from "./compare";
 import { Controls } from "./controls";
 import { Desk, type Engine, type Wish } from "./desk";
 import { h } from "./dom";
@@ -13,6 +14,7 @@ import { Notices } from "./notices";
 import { Clock } from "./plots";
 import { Records } from "./records";
 import * as results from "./results";
+import { Guides } from "./scenes/guide";
 import { palette, type Shown } from "./scene";
 import { Stage } from "./stage";
 import { Steps } from "./steps";
@@ -74,6 +76,8 @@ export class App {
   private readonly intake: Intake;
   private readonly study: StudyTab;
   private readonly bar: TabBar;
+  private readonly compare: Compare;
+  private readonly guides: Guides;
   private readonly address = new Address();
   private readonly steps = new Steps();
   private readonly undo = h("button", { type: "button", disabled: true, onclick: () => this.step(-1) }, "Undo");
@@ -115,7 +119,31 @@ export class App {
       this.wish();
     });
     this.theme();
-    this.stage = new Stage(this.headline, this.severe, this.clock);
+    this.compare = new Compare({
+      desk,
+      text,
+      state: () => (this.judgement ? state() : undefined),
+      display: () => this.display,
+      setText,
+      changed: () => {
+        if (this.answer) this.drawAnswer();
+        void this.remember();
+      },
+      say,
+    });
+    this.guides = new Guides({
+      desk,
+      display: () => this.display,
+      open: (text, pinned) => {
+        this.select("motion", false);
+        this.open(text);
+        this.compare.keep(pinned);
+      },
+      set: (settings) => this.set(settings),
+      changed: () => void this.remember(),
+      copy: (text, said) => void this.exports.copy(text, said),
+    });
+    this.stage = new Stage(this.headline, this.severe, this.compare.element, this.clock);
     this.histories = new Histories(this.clock, palette(this.root));
     this.exports = new Exports({
       desk,
@@ -148,7 +176,7 @@ export class App {
       root: this.root,
       own: this.records.own,
       text,
-      setText: (text) => this.open(text),
+      setText: (text) => this.openModel(text),
       take: (record) => this.records.take(record),
       wish: () => this.wish(),
       study: (plan) => {
@@ -193,7 +221,9 @@ export class App {
   }
 
   private layout(): void {
-    this.motionPanel.append(this.stage.element, this.modelPart(), this.histories.element, this.resultsPart());
+    const lead = h("p", { class: "welcome" }, "A building on sliding bearings in an earthquake: drag any value, and see at once how far it slides and what it feels.");
+    this.root.classList.toggle("embedded", this.options.address && window.self !== window.top);
+    this.motionPanel.append(h("div", { class: "middle" }, lead, this.stage.element), this.modelPart(), this.histories.element, this.resultsPart());
     this.root.append(
       h("a", { class: "skip", href: "#main", onclick: (event: Event) => { event.preventDefault(); this.main.focus(); } }, "To the model"),
       this.header(),
@@ -228,7 +258,9 @@ export class App {
         { class: "tools" },
         open,
         button("Open files…", () => open.click()),
-        menu("Examples", ...MODELS.map(({ label, text }) => button(label, () => this.open(text)))),
+        menu("Examples", ...MODELS.map(({ label, text }) => button(label, () => this.openModel(text)))),
+        menu("Guided scenes", ...this.guides.buttons()),
+        h("a", { class: "button whole", href: location.href, target: "_blank", onclick: (event: Event) => ((event.currentTarget as HTMLAnchorElement).href = location.href) }, "Open in Slipstick"),
         this.undo,
         this.redo,
         button("Reset", () => this.setText(this.steps.start)),
@@ -243,6 +275,7 @@ export class App {
     return h(
       "section",
       { class: "controls", "aria-label": "Model" },
+      this.guides.element,
       h("div", { class: "card pad" }, this.controls.element),
       h("div", { class: "card pad" }, h("h2", {}, "Records"), this.records.list, h("p", { class: "drop-hint" }, "Drop a record of any of the 18 formats, a model or a plan anywhere on the page.")),
       this.editor.element,
@@ -275,6 +308,7 @@ export class App {
     desk.onjudged = (judgement, wish) => this.judged(judgement, wish);
     desk.onfault = (fault, wish) => this.fault(fault, wish);
     desk.onrest = () => {
+      void this.compare.update();
       void this.remember();
       if (this.answer) notices.say(results.sentence(this.answer.state, this.judgement?.certificate.holds));
       this.exports.prepareAtRest();
@@ -298,7 +332,7 @@ export class App {
       });
     }
     new ResizeObserver(() => {
-      if (this.bar.tab === "motion") this.stage.draw();
+      if (this.bar.tab === "motion") this.stage.draw(this.compare.pinned?.answer);
     }).observe(this.motionPanel);
     const step = (now: number) => {
       this.frame = requestAnimationFrame(step);
@@ -380,6 +414,12 @@ export class App {
   private open(text: string): void {
     this.steps.opened(text);
     this.setText(text);
+  }
+
+  /** Opens a model by itself: no guided scene is about it. */
+  private openModel(text: string): void {
+    this.guides.show(undefined);
+    this.open(text);
   }
 
   /** A state further on, or back. */
@@ -480,12 +520,13 @@ export class App {
     if (this.updates === 0) this.bar.open.open();
     this.controls.update(state);
     this.records.update();
-    results.headline(this.headline, state);
+    const pinned = this.compare.pinned?.answer;
+    results.headline(this.headline, state, pinned?.state);
     results.severe(this.severe, (judgement ?? state).warnings);
     this.peaks.show(judgement ?? state);
     if (this.bar.tab !== "motion") return;
-    this.histories.show(answer, judgement);
-    this.stage.draw();
+    this.histories.show(answer, judgement, pinned);
+    this.stage.draw(pinned);
   }
 
   private drawJudgement(judgement: Judgement): void {
@@ -504,14 +545,21 @@ export class App {
     const { text, display, options } = this;
     options.onstate?.({ model: text, summary: JSON.stringify(state.headline) });
     if (!options.address) return;
-    await this.address.remember({ text, display, tab: this.bar.tab, settings: this.bar.open.settings?.() ?? {}, stepwise: this.stepwise.checked, records: this.records.needed() });
+    await this.address.remember({ text, display, tab: this.bar.tab, settings: this.bar.open.settings?.() ?? {}, stepwise: this.stepwise.checked, records: this.records.needed(this.compare.pinned?.answer.state), pinned: this.compare.kept, scene: this.guides.id });
   }
 
   private async fromAddress(): Promise<void> {
     try {
+      const scene = this.address.scene();
+      if (scene !== undefined) {
+        if (this.guides.open(scene)) return;
+        throw new Error(`the address: expected a guided scene, found "${scene}"`);
+      }
       const shared = await this.address.read();
       if (!shared) {
         this.text = START;
+        this.compare.keep(undefined);
+        this.guides.show(undefined);
         return;
       }
       this.text = shared.text;
@@ -520,6 +568,8 @@ export class App {
       this.stepwise.checked = shared.stepwise;
       this.desk.stepwise = shared.stepwise;
       this.intake.wanted = shared.records.filter(({ name }) => !this.desk.records.has(name));
+      this.compare.keep(shared.pinned);
+      this.guides.show(shared.scene);
       this.select(shared.tab, false);
       this.bar.open.restore?.(shared.settings);
     } catch (error) {

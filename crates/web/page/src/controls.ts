@@ -29,6 +29,7 @@ const SPECS: Record<string, Spec> = {
   "slider.asymmetry": { label: "Asymmetry", min: -0.5, max: 0.5 },
   "slider.gap": { label: "Gap", min: 0.01, max: 1, log: true },
   "slider.stop.gap": { label: "Gap to the stop", min: 0.01, max: 1, log: true },
+  "slider.stop.stiffness": { label: "Stiffness of the stop", min: 0, max: 0, log: true },
   "slider.stop.restitution": { label: "Restitution of the stop", min: 0, max: 1 },
   "slider.bounds.lower": { label: "Lower bound ×", min: 0.3, max: 1 },
   "slider.bounds.upper": { label: "Upper bound ×", min: 1, max: 3 },
@@ -43,6 +44,7 @@ const SPECS: Record<string, Spec> = {
   "frame.period": { label: "First period on a fixed base", min: 0.05, max: 5, log: true },
   "motion.scale": { label: "Scale of the record", min: 0.1, max: 5, log: true },
   "motion.scale_to": { label: "Peak acceleration of the table", min: 0.1, max: 15 },
+  "motion.vertical_scale": { label: "Factor on the vertical motion", min: 0, max: 2 },
   "motion.scale_y": { label: "Further factor on y", min: 0.1, max: 5, log: true },
   "motion.rotate": { label: "Turn of the pair, x towards y", min: -Math.PI, max: Math.PI },
   "motion.sine.frequency": { label: "Frequency", min: 0.1, max: 20, log: true },
@@ -65,6 +67,13 @@ const GROUPS: [prefix: string, label: string][] = [
 ];
 
 const pattern = (path: string) => path.replace(/\.\d+(?=\.|$)/g, ".#");
+/** The words of a value of the model. */
+export function labelOf(path: string): string {
+  const storey = /^storey\.(\d+)/.exec(path)?.[1];
+  const label = SPECS[pattern(path)]?.label ?? path;
+  return storey === undefined ? label : `Storey ${storey}, ${label.toLowerCase()}`;
+}
+
 const round = (value: number, count = 3) => Number(value.toPrecision(count));
 
 /** One value: its field, its unit, its slider. */
@@ -173,9 +182,9 @@ let made = 0;
 
 const RESTORING: [key: string, label: string, first: (state: State) => string][] = [
   ["none", "None", () => ""],
-  ["radius", "Pendulum, radius", () => "2 m"],
-  ["period", "Spring, by its period", () => "3 s"],
-  ["spring", "Spring, by its stiffness", (state) => `${round((state.structure.weight_n / 2))} N/m`],
+  ["radius", "Pendulum", () => "2 m"],
+  ["period", "Spring by period", () => "3 s"],
+  ["spring", "Spring by stiffness", (state) => `${round((state.structure.weight_n / 2))} N/m`],
 ];
 
 /** All controls of a model. */

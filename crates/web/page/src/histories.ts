@@ -1,7 +1,7 @@
 /** The three pictures over time: sliding displacement, accelerations, and one to choose. */
 
 import { fill, h } from "./dom";
-import { Chart, type Clock, intervals, type Line } from "./plots";
+import { Chart, type Clock, intervals, type Line, type Overlay } from "./plots";
 import type { Palette } from "./scene";
 import type { Answer, Beside, Judgement } from "./types";
 
@@ -19,6 +19,11 @@ function storey(values: Float64Array, place: number, count: number): Float64Arra
   return out;
 }
 
+const storeysOf = (answer: Answer | undefined) => answer?.state.structure.storeyMasses_kg.length ?? 0;
+
+/** The sliding displacement; of two directions, its size. */
+const resultant = ({ s, sy }: Answer) => (sy.length > 0 ? s.map((x, i) => Math.hypot(x, sy[i]!)) : s);
+
 export class Histories {
   readonly element: HTMLElement;
   private readonly sliding: Chart;
@@ -27,6 +32,7 @@ export class Histories {
   private readonly choice = h("select", { "aria-label": "What the third picture shows" });
   private answer: Answer | undefined;
   private judgement: Judgement | undefined;
+  private pinned: Answer | undefined;
   private energyShown = false;
 
   constructor(
@@ -47,10 +53,11 @@ export class Histories {
     for (const chart of this.clock.charts) chart.restyle(colours);
   }
 
-  /** Draws an answer, with what is known of it by now. */
-  show(answer: Answer, judgement: Judgement | undefined): void {
+  /** Draws an answer, with what is known of it by now, and B where one is kept. */
+  show(answer: Answer, judgement: Judgement | undefined, pinned: Answer | undefined): void {
     this.answer = answer;
     this.judgement = judgement;
+    this.pinned = pinned;
     this.clock.sliding = intervals(answer.time, answer.mode);
     this.drawSliding();
     this.drawAccelerations();
@@ -64,6 +71,12 @@ export class Histories {
     if (this.choice.value === "energy") this.drawThird();
   }
 
+  /** A history of B, as it stands behind the others. */
+  private ofPinned(of: string, values: (pinned: Answer) => Float64Array): Overlay[] {
+    const { pinned, colours } = this;
+    return pinned ? [{ label: `B ${of}`.trim(), colour: colours.versus!, time: pinned.time, s: values(pinned), width: 1.6 }] : [];
+  }
+
   private drawSliding(): void {
     const { answer, colours, judgement } = this;
     if (!answer) return;
@@ -71,11 +84,11 @@ export class Histories {
     const peak = answer.state.headline.peak_m;
     const near = gap !== null && gap < 2.5 * peak ? [gap, -gap] : [];
     const of = (label: string, colour: string, beside: Beside | undefined, dash = false) => (beside ? [{ ...beside, label, colour, dash }] : []);
-    const one = [{ label: "nominal", colour: colours.stick!, values: answer.s, width: 1.7 }];
+    const one = [{ label: judgement?.lower ? "nominal friction" : "now", colour: colours.stick!, values: answer.s, width: 1.7 }];
     const two = [
       { label: "along x", colour: colours.stick!, values: answer.s, width: 1.2 },
       { label: "along y", colour: colours.bound!, values: answer.sy, width: 1.2 },
-      { label: "resultant", colour: colours.ink!, values: answer.s.map((x, i) => Math.hypot(x, answer.sy[i]!)), width: 1.7 },
+      { label: "resultant", colour: colours.ink!, values: resultant(answer), width: 1.7 },
     ];
     this.sliding.show({
       time: answer.time,
@@ -85,8 +98,10 @@ export class Histories {
         ...(answer.sy.length > 0 ? [] : of("lower friction", colours.bound!, judgement?.lower)),
         ...(answer.sy.length > 0 ? [] : of("upper friction", colours.table!, judgement?.upper)),
         ...of("stepwise", colours.gap!, judgement?.steps, true),
+        ...this.ofPinned(this.pinned?.sy.length ? "resultant" : "", resultant),
       ],
       limits: near,
+      title: "Sliding",
       unit: answer.state.units.length,
     });
   }
@@ -103,14 +118,20 @@ export class Histories {
       const roof = storey(answer.storeyAcceleration, storeys - 1, storeys);
       lines.push({ label: storeys > 1 ? "roof" : "storey", colour: colours.roof!, values: roof, width: 1 });
     }
-    this.acceleration.show({ time: answer.time, lines, unit: answer.state.units.acceleration });
+    this.acceleration.show({
+      time: answer.time,
+      lines,
+      overlays: this.ofPinned(storeysOf(this.pinned) > 0 ? "roof" : "block", (pinned) => (storeysOf(pinned) > 0 ? storey(pinned.storeyAcceleration, storeysOf(pinned) - 1, storeysOf(pinned)) : pinned.block)),
+      title: "Acceleration",
+      unit: answer.state.units.acceleration,
+    });
   }
 
   private drawThird(): void {
     const { answer, colours } = this;
     if (!answer) return;
     const { units, structure } = answer.state;
-    const show = (lines: Line[], unit = units.length) => this.third.show({ time: answer.time, lines, unit });
+    const show = (title: string, lines: Line[], overlays: Overlay[], unit = units.length) => this.third.show({ time: answer.time, lines, overlays, title, unit });
     const storeys = structure.storeyMasses_kg.length;
     switch (this.choice.value) {
       case "energy":
@@ -120,20 +141,24 @@ export class Histories {
         const shown = storeys > 3 ? [0, Math.floor(storeys / 2), storeys - 1] : [...Array(storeys).keys()];
         const colour = [colours.stick!, colours.bound!, colours.roof!];
         const lines = shown.map((place, i) => ({ label: structure.storeyNames[place] ?? "", colour: colour[shown.length === 1 ? 2 : i]!, values: storey(answer.storeyDisplacement, place, storeys) }));
-        show(lines.length ? lines : [{ label: "no storeys", colour: colours.quiet!, values: new Float64Array(answer.time.length) }]);
+        const none = [{ label: "no storeys", colour: colours.quiet!, values: new Float64Array(answer.time.length) }];
+        const count = storeysOf(this.pinned);
+        show("Displacement", lines.length ? lines : none, count > 0 ? this.ofPinned("roof", (pinned) => storey(pinned.storeyDisplacement, count - 1, count)) : []);
         break;
       }
       case "force":
         show(
+          "Force",
           [
             { label: "all of the slider", colour: colours.stick!, values: answer.force },
             { label: "friction alone", colour: colours.slide!, values: answer.friction, width: 1 },
           ],
+          this.ofPinned("all of the slider", (pinned) => pinned.force),
           units.force,
         );
         break;
       default:
-        show([{ label: "sliding velocity", colour: colours.stick!, values: answer.velocity }], units.velocity);
+        show("Velocity", [{ label: "now", colour: colours.stick!, values: answer.velocity }], this.ofPinned("", (pinned) => pinned.velocity), units.velocity);
     }
     this.energyShown = false;
   }
@@ -146,7 +171,7 @@ export class Histories {
     const none = new Float64Array(answer.time.length).fill(Number.NaN);
     const known = (values: Float64Array | undefined) => (values?.length === answer.time.length ? values : none);
     const lines = names.map((label, i) => ({ label, colour: colour[i]!, values: known(judgement?.energy[i]), width: 1.4 }));
-    if (judgement || !this.energyShown) this.third.show({ time: answer.time, lines, unit: answer.state.units.energy });
+    if (judgement || !this.energyShown) this.third.show({ time: answer.time, lines, title: "Energy", unit: answer.state.units.energy });
     this.energyShown = true;
   }
 }

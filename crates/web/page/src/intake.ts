@@ -54,6 +54,11 @@ export class Intake {
           else this.page.setText(text);
           continue;
         }
+        if (isModes(bytes)) {
+          await this.page.desk.add(file.name, bytes);
+          this.page.wish();
+          continue;
+        }
         last = (await this.record(file.name, bytes)) ?? last;
       } catch (error) {
         if (error instanceof ModuleError) this.page.fault(error.fault);
@@ -187,6 +192,14 @@ export class Intake {
       dialog.showModal();
     });
   }
+}
+
+/** Whether a file is a table of the modes of a structure, by its header. */
+function isModes(bytes: Uint8Array): boolean {
+  const lines = new TextDecoder().decode(bytes.subarray(0, 65536)).split("\n");
+  const header = lines.find((line) => line.trim() !== "" && !line.trimStart().startsWith("#")) ?? "";
+  const names = header.replace(/^\uFEFF/, "").toLowerCase().split(/[,;\t]/).map((name) => name.trim().replaceAll('"', ""));
+  return names.some((name) => /^(period_s|frequency_hz)$/.test(name)) && names.some((name) => /^(participation|effective_mass)/.test(name));
 }
 
 /** Refuses what is too long to be drawn. */

@@ -2,7 +2,7 @@
 
 import uPlot from "uplot";
 import { digits, fill, h } from "./dom";
-import type { Palette } from "./scene";
+import { at, knotAt, type Palette } from "./scene";
 import type { Beside, Unit } from "./types";
 
 export interface Line {
@@ -18,6 +18,7 @@ export interface Overlay extends Beside {
   label: string;
   colour: string;
   dash?: boolean;
+  width?: number;
 }
 
 export interface Content {
@@ -26,6 +27,8 @@ export interface Content {
   overlays?: Overlay[];
   /** Values that are not to be passed. */
   limits?: number[];
+  /** What the values are, for the axis. */
+  title: string;
   unit: Unit;
 }
 
@@ -103,7 +106,7 @@ export class Chart {
       return out;
     };
     const data = [content.time, ...content.lines.map((line) => scaled(line.values))] as unknown as uPlot.AlignedData;
-    const shape = JSON.stringify([content.lines.map((l) => [l.label, l.colour, l.width, l.dash]), unit.symbol]);
+    const shape = JSON.stringify([content.lines.map((l) => [l.label, l.colour, l.width, l.dash]), content.title, unit.symbol]);
     if (shape !== this.shape || !this.plot) {
       this.shape = shape;
       this.make(data);
@@ -153,13 +156,10 @@ export class Chart {
   tell(time: number): void {
     const content = this.content;
     if (!content || content.time.length === 0) return;
-    let [low, high] = [0, content.time.length - 1];
-    while (low < high) {
-      const middle = (low + high + 1) >> 1;
-      if (content.time[middle]! <= time) low = middle;
-      else high = middle - 1;
-    }
-    const values = content.lines.map((line) => `${line.label} ${digits(line.values[low]! / content.unit.in_si, 3)}`);
+    const told = (label: string, value: number) => `${label} ${digits(value / content.unit.in_si, 3)}`;
+    const knot = knotAt(content.time, time);
+    const beside = (content.overlays ?? []).filter(({ time }) => time.length > 0);
+    const values = [...content.lines.map(({ label, values }) => told(label, values[knot]!)), ...beside.map((overlay) => told(overlay.label, at(overlay.time, overlay.s, time)))];
     this.readout.textContent = `${time.toFixed(2)} s: ${values.join(" · ")} ${content.unit.symbol}`;
   }
 
@@ -173,7 +173,7 @@ export class Chart {
 
   private make(data: uPlot.AlignedData): void {
     this.plot?.destroy();
-    const { lines, unit } = this.content!;
+    const { lines, title, unit } = this.content!;
     const colour = this.colours;
     const axis = {
       stroke: colour.quiet!,
@@ -192,8 +192,8 @@ export class Chart {
         cursor: { sync: { key: "slipstick", setSeries: false }, y: false, points: { show: false }, drag: { x: true, y: false, dist: 6, setScale: false } },
         scales: { x: { time: false }, y: { range: (_, low, high) => this.bounds(low, high) } },
         axes: [
-          { ...axis, size: 30, values: minus },
-          { ...axis, size: 58, label: unit.symbol, labelSize: 16, labelGap: 0, values: minus },
+          { ...axis, size: 26, label: "Time (s)", labelSize: 18, labelGap: -2, values: minus },
+          { ...axis, size: 50, label: `${title} (${unit.symbol})`, labelSize: 18, labelGap: 0, values: minus },
         ],
         series: [
           {},
@@ -268,7 +268,7 @@ export class Chart {
     const unit = this.content!.unit.in_si;
     for (const overlay of this.content!.overlays ?? []) {
       c.strokeStyle = overlay.colour;
-      c.lineWidth = 1.1 * (globalThis.devicePixelRatio || 1);
+      c.lineWidth = (overlay.width ?? 1.1) * (globalThis.devicePixelRatio || 1);
       c.setLineDash(overlay.dash ? [7, 5] : []);
       c.beginPath();
       let [column, low, high, last] = [NaN, 0, 0, 0];

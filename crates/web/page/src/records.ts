@@ -47,8 +47,8 @@ export class Records {
   }
 
   /** Paths of all components of the motion, as the model names them. */
-  private paths(): string[] {
-    return this.page.state()?.inputs.filter(({ path }) => /^motion\.(record|record_y|vertical)$/.test(path)).map(({ text }) => text) ?? [];
+  private paths(state = this.page.state()): string[] {
+    return state?.inputs.filter(({ path }) => /^motion\.(record|record_y|vertical)$/.test(path)).map(({ text }) => text) ?? [];
   }
 
   /** The files of the motion, by their paths in the model. */
@@ -60,9 +60,9 @@ export class Records {
     });
   }
 
-  /** Those of the person's own that the model needs, as the address names them. */
-  needed(): { name: string; sha256: string }[] {
-    const used = this.paths();
+  /** Those of the person's own that the model needs, and B where there is one, as the address names them. */
+  needed(pinned: State | undefined): { name: string; sha256: string }[] {
+    const used = [...this.paths(), ...(pinned ? this.paths(pinned) : [])];
     return [...this.own].filter(([name]) => used.includes(name)).map(([name, { sha256 }]) => ({ name, sha256 }));
   }
 

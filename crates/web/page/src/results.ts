@@ -3,20 +3,46 @@
 import { digits, fill, h } from "./dom";
 import type { Answer, Judgement, State, Warning } from "./types";
 
-/** The figures that are read first. */
-export function headline(into: HTMLElement, { headline, units, structure }: State): void {
-  const item = (label: string, value: string, unit: string, over = false) => h("div", { class: over ? "over" : "" }, h("dt", {}, label), h("dd", {}, value, unit && h("small", {}, unit)));
-  const length = (label: string, value: number) => item(label, digits(value / units.length.in_si), units.length.symbol);
-  const acceleration = (label: string, value: number) => item(label, digits(value / units.acceleration.in_si), units.acceleration.symbol);
-  const gap = structure.gap_m !== null && headline.gapRatio !== null;
-  fill(
-    into,
+/** A figure that is read first: its value in SI, and how it is written. */
+interface Figure {
+  label: string;
+  value: number;
+  text: string;
+  unit: string;
+  over?: boolean;
+}
+
+function figures({ headline, units, structure }: State): Figure[] {
+  const length = (label: string, value: number): Figure => ({ label, value, text: digits(value / units.length.in_si), unit: units.length.symbol });
+  const acceleration = (label: string, value: number): Figure => ({ label, value, text: digits(value / units.acceleration.in_si), unit: units.acceleration.symbol });
+  const { gapRatio, roof_m_per_s2: roof, baseShear, slips } = headline;
+  const gap = structure.gap_m !== null && gapRatio !== null;
+  return [
     length("Peak sliding", headline.peak_m),
     length("Residual", headline.residual_m),
-    gap ? item("Gap used", digits(100 * headline.gapRatio!, 3), "%", headline.gapRatio! > 1) : item("Slips", String(headline.slips), ""),
-    headline.roof_m_per_s2 === null ? acceleration("Block acceleration", headline.block_m_per_s2) : acceleration("Roof acceleration", headline.roof_m_per_s2),
-    headline.roof_m_per_s2 === null ? "" : item("Base shear / weight", digits(headline.baseShear, 3), ""),
-  );
+    gap ? { label: "Gap used", value: gapRatio, text: digits(100 * gapRatio, 3), unit: "%", over: gapRatio > 1 } : { label: "Times it slides", value: slips, text: String(slips), unit: "" },
+    roof === null ? acceleration("Block accel\u00aderation", headline.block_m_per_s2) : acceleration("Roof accel\u00aderation", roof),
+    ...(roof === null ? [] : [{ label: "Base shear / weight", value: baseShear, text: digits(baseShear, 3), unit: "" }]),
+  ];
+}
+
+/** What B has instead, and by how much the present value differs from it. */
+function versus(now: Figure, pinned: Figure | undefined): string {
+  if (!pinned) return "";
+  const share = Math.round(100 * (now.value / pinned.value - 1));
+  const more = pinned.value === 0 || !Number.isFinite(share) ? "" : share === 0 ? ", as now" : `, now ${share > 0 ? "+" : "−"}${Math.abs(share)} %`;
+  return `B ${pinned.text}${pinned.unit && ` ${pinned.unit}`}${more}`;
+}
+
+/** The figures that are read first, beside those of B where one is kept. */
+export function headline(into: HTMLElement, state: State, pinned?: State): void {
+  const beside = pinned ? figures(pinned) : [];
+  const item = (figure: Figure) => {
+    const { label, text, unit, over } = figure;
+    const other = versus(figure, beside.find((one) => one.label === label));
+    return h("div", { class: over ? "over" : "" }, h("dt", {}, label), h("dd", {}, text, unit && h("small", {}, unit)), other && h("dd", { class: "versus" }, other));
+  };
+  fill(into, ...figures(state).map(item));
 }
 
 /** What forbids to take the figures as they stand, beside them. */
@@ -85,6 +111,14 @@ export function sentence({ headline, units }: State, holds: boolean | null | und
   return `Peak sliding displacement ${length(headline.peak_m)}, residual ${length(headline.residual_m)}. ${checked}`;
 }
 
+/** What the figures of the check say. */
+const MEANINGS: Record<string, string> = {
+  "Equilibrium residual": "Largest difference from an integration by another method, as a share of the peak",
+  "Friction excess": "Largest excess of the force on the slider over what friction can give, as a share of it",
+  "Energy balance error": "What went in and is found nowhere, as a share of the energy",
+  "Demands error": "Largest difference of a printed figure from the same figure computed anew, as a share of it",
+};
+
 /** The certificate of a judged answer; that there is none yet, without one. `last`: of the last good state. */
 export function certificate(into: HTMLElement, judgement: Judgement | undefined, last = false): void {
   const say = (kind: string, lead: string, ...more: (Node | string)[]) => {
@@ -102,8 +136,11 @@ export function certificate(into: HTMLElement, judgement: Judgement | undefined,
     return;
   }
   const { holds, bound, figures, closestCall, iterations } = judgement.certificate;
-  const list = h("dl", {}, ...figures.flatMap(({ name, value }) => [h("dt", {}, name), h("dd", {}, value)]));
-  if (closestCall) list.append(h("dt", {}, `Closest call (${closestCall.kind}, ${closestCall.time_s.toFixed(2)} s)`), h("dd", {}, closestCall.margin));
+  const list = h("dl", {}, ...figures.flatMap(({ name, value }) => [h("dt", { title: MEANINGS[name] ?? "" }, name), h("dd", {}, value)]));
+  if (closestCall) {
+    const of = h("dt", { title: "How far the least certain of all decisions, to slide or to stick, was from falling the other way, as a share" }, `Margin of the least certain step (${closestCall.kind}, ${closestCall.time_s.toFixed(2)} s)`);
+    list.append(of, h("dd", {}, closestCall.margin));
+  }
   if (iterations) list.append(h("dt", {}, "Iterations a step, mean and most"), h("dd", {}, `${iterations.mean}, ${iterations.max}`));
   if (holds === true) say("holds", "Computed right", h("span", {}, `An independent integration of this model agrees within ${bound}.`), list);
   else if (holds === false) say("fails", "The check FAILED: do not use this response", h("span", {}, `Not every figure is within ${bound}.`), list);

@@ -10,6 +10,10 @@ export interface Shared {
   /** What is set on the tab. */
   settings: Record<string, string>;
   stepwise: boolean;
+  /** The text of the setting that is kept as B. */
+  pinned?: string;
+  /** The guided scene that is open. */
+  scene?: string;
   /** Records of the person's own that the model needs, by name and hash. */
   records: { name: string; sha256: string }[];
 }
@@ -58,7 +62,8 @@ export async function decode(fragment: string): Promise<Shared | null> {
     const display = (["si", "si-g", "kN-mm", "us"] as Display[]).find((d) => d === shared.display) ?? "si";
     const records = Array.isArray(shared.records) ? shared.records.filter((r) => typeof r?.name === "string") : [];
     const settings = Object.fromEntries(Object.entries(shared.settings ?? {}).filter(([, value]) => typeof value === "string"));
-    return { text: shared.text, display, tab: String(shared.tab ?? "motion"), settings, stepwise: shared.stepwise === true, records };
+    const said = (value: unknown) => (typeof value === "string" ? value : undefined);
+    return { text: shared.text, display, tab: String(shared.tab ?? "motion"), settings, stepwise: shared.stepwise === true, records, pinned: said(shared.pinned), scene: said(shared.scene) };
   } catch {
     throw new Error(`the address: expected ${expected}, found one that is cut off, changed or too large (${data!.length} characters)`);
   }

@@ -1,8 +1,10 @@
 /** The animation and its transport: play, pause, scrub, speed. */
 
 import { fill, h } from "./dom";
+import { Legend } from "./legend";
 import type { Clock } from "./plots";
 import { Loop, type Palette, palette, Plan, Scene, type Shown } from "./scene";
+import type { Answer } from "./types";
 
 const ICON = { play: "M4 2.5v11l9-5.5z", pause: "M3.5 2.5h3v11h-3zM9.5 2.5h3v11h-3z" };
 
@@ -31,6 +33,8 @@ export class Stage {
   playing = false;
   private speed = 1;
   private shown: Shown | undefined;
+  private pinned: Answer | undefined;
+  private readonly legend: Legend;
   private drawnAt = 0;
   private writtenAt = 0;
   private readonly scene: Scene;
@@ -44,8 +48,11 @@ export class Stage {
   constructor(
     headline: HTMLElement,
     severe: HTMLElement,
+    compare: HTMLElement,
     private readonly clock: Clock,
   ) {
+    this.scene = new Scene(this.canvas);
+    this.legend = new Legend(this.canvas, () => this.scene.parts);
     const speeds = h("select", {}, ...[0.1, 0.25, 0.5, 1, 2, 5].map((x) => h("option", { value: x, selected: x === 1 }, `× ${x}`)));
     speeds.addEventListener("change", () => (this.speed = Number(speeds.value)));
     const scales = h("select", {}, h("option", { value: "true" }, "true to scale"), h("option", { value: "magnified" }, "magnified"));
@@ -58,16 +65,15 @@ export class Stage {
     this.element = h(
       "section",
       { class: "card stage", "aria-label": "Motion" },
-      headline,
-      severe,
-      this.canvas,
+      h("div", { class: "picture" }, headline, severe, this.canvas, this.legend.tip),
+      h("details", { class: "fold legend" }, h("summary", {}, "What is what"), this.legend.list),
       this.planCanvas,
       h("div", { class: "transport" }, this.playButton, this.scrub, this.clockText, h("label", {}, "Speed", speeds), h("label", {}, "Displacements", scales), whole),
+      compare,
     );
     const loop = h("canvas", { class: "loop", role: "img", "aria-label": "Force on the slider over sliding displacement" });
     const dot = h("div", { class: "dot" });
     this.loopBox = h("div", { class: "loop-box" }, loop, dot);
-    this.scene = new Scene(this.canvas);
     this.plan = new Plan(this.planCanvas);
     this.loop = new Loop(loop, dot);
     this.playButton.addEventListener("click", () => this.play(!this.playing));
@@ -113,13 +119,14 @@ export class Stage {
     this.planCanvas.hidden = shown.answer.sy.length === 0;
   }
 
-  /** Draws what does not move with time. */
-  draw(): void {
+  /** Draws what does not move with time, and B where one is kept. */
+  draw(pinned: Answer | undefined): void {
     const { shown, end } = this;
     if (!shown) return;
+    this.pinned = pinned;
     this.scrub.max = String(end);
     this.scrub.step = String(Math.max(0.001, end / 5000));
-    this.loop.show(shown.answer);
+    this.loop.show(shown.answer, pinned);
     this.stale = true;
   }
 
@@ -137,14 +144,15 @@ export class Stage {
     if (!this.stale || !visible) return;
     this.stale = false;
     this.time = Math.min(this.time, end);
-    this.scene.draw(shown, this.time);
-    if (!this.planCanvas.hidden) this.plan.draw(shown, this.time);
+    this.scene.draw(shown, this.time, this.pinned);
+    if (!this.planCanvas.hidden) this.plan.draw(shown, this.time, this.pinned);
     this.loop.mark(shown.answer, this.time);
     clock.now(this.time);
     if (!this.playing || now - this.writtenAt > WRITTEN_MS) {
       this.writtenAt = now;
       this.clockText.textContent = `${this.time.toFixed(2)} s`;
       for (const chart of clock.charts) chart.tell(this.time);
+      this.legend.update();
     }
     if (!this.scrub.matches(":active")) this.scrub.value = String(this.time);
     this.scrub.style.setProperty("--at", `${end > 0 ? (100 * this.time) / end : 0}%`);

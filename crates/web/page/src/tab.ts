@@ -42,7 +42,7 @@ const identities = new WeakMap<Uint8Array, number>();
 let known = 0;
 
 /** What a result is of, as text: the model, the bytes of the records, what was asked. */
-export function subject({ desk, text }: Page, asked: unknown): string {
+export function subject({ desk, text }: Pick<Page, "desk" | "text">, asked: unknown): string {
   const records = [...desk.records].map(([name, bytes]) => {
     const number = identities.get(bytes) ?? ++known;
     identities.set(bytes, number);

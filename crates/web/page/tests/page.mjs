@@ -7,6 +7,10 @@ import { createRequire } from "node:module";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { unzipSync } from "fflate";
+import { compare } from "./compare.mjs";
+import { field, setField, slider } from "./fields.mjs";
+import { minute } from "./minute.mjs";
+import { scenes } from "./scenes.mjs";
 import { browser, drop, headline, host, message, open, settled, temporary } from "./harness.mjs";
 
 const folder = resolve(process.argv[2]);
@@ -32,15 +36,6 @@ async function on(run, options, url = site.url) {
   } finally {
     await opened.close();
   }
-}
-
-const slider = (page, label) => page.getByRole("slider", { name: label, exact: true });
-const field = (page, label) => page.getByRole("textbox", { name: label, exact: true });
-
-async function setField(page, label, text) {
-  await field(page, label).fill(text);
-  await field(page, label).press("Enter");
-  await field(page, label).blur();
 }
 
 test("the first picture shows the Taft example, moving and checked", () =>
@@ -696,10 +691,16 @@ test("everything is done by keyboard", () =>
     assert.equal(await label(), "Play");
   }));
 
-for (const scheme of ["light", "dark"]) {
-  test(`no violation of WCAG AA, ${scheme}`, () =>
+for (const [scheme, forcedColors] of [["light", "none"], ["dark", "none"], ["light", "active"], ["dark", "active"]]) {
+  test(`no violation of WCAG AA, ${scheme}${forcedColors === "active" ? ", forced colours" : ""}`, () =>
     on(
       async (page) => {
+        // A scene with its answer, and B, which it keeps.
+        await page.evaluate(() => globalThis.slipstick.guides.open("bounds"));
+        await settled(page);
+        await page.locator(".guide").getByRole("button", { name: "Show the answer" }).click();
+        await page.locator(".guide .answer h3").waitFor();
+        await page.locator(".legend summary").click();
         await page.addScriptTag({ path: axe }).catch(async () => page.evaluate(readFileSync(axe, "utf8")));
         for (const tab of ["motion", "sweep", "suite", "spectrum", "ida", "fragility", "design", "study"]) {
           await page.locator(`#tab-${tab}`).click();
@@ -715,9 +716,13 @@ for (const scheme of ["light", "dark"]) {
           assert.deepEqual(found, [], tab);
         }
       },
-      { colorScheme: scheme, bypassCSP: true },
+      { colorScheme: scheme, forcedColors, bypassCSP: true },
     ));
 }
+
+minute(test, on);
+compare(test, on);
+scenes(test, on, site);
 
 test("it opens without a network once it was open, and asks for nothing after it", async () => {
   const opened = await open(chromium, site.url, { serviceWorkers: "allow" });

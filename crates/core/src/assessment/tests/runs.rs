@@ -13,15 +13,15 @@ use crate::assessment::models::Models;
 use crate::assessment::observed::{Data, FitTo, FragilityRequest, run_fragility};
 use crate::assessment::single::Job;
 use crate::assessment::spectrum::{SpectrumRequest, run_spectrum};
-use crate::assessment::suite::{Scaling, Suite, SuiteRecord};
+use crate::assessment::suite::{Scaling, Suite};
 use crate::error::{SolveError, Stopped};
 use crate::input::loaded::Loaded;
 use crate::input::{self, Bound};
 use crate::motion::GroundMotion;
 use crate::motion::intensity::{LevelMeasure, Measure, RotD};
-use crate::record::Origin;
 use crate::response::demand_values;
 use crate::solver;
+use crate::study::Record;
 use crate::study::engine::Engine;
 use crate::table::Cells;
 
@@ -38,13 +38,7 @@ fn suite() -> Suite {
             3.0 * libm::sin((5.0 + f64::from(i)) * t) * libm::sin(19.0 * t) * libm::exp(-0.3 * t)
         };
         let motion = GroundMotion::evenly_spaced(0.01, (0..500).map(wave).collect(), None);
-        SuiteRecord {
-            name: format!("r{i}"),
-            motion: motion.unwrap(),
-            pair: None,
-            origin: Origin::default(),
-            notices: Vec::new(),
-        }
+        Record::new(format!("r{i}"), motion.unwrap())
     };
     Suite { records: (0..5).map(record).collect(), ..Suite::default() }
 }

@@ -4,7 +4,7 @@ use super::super::collocation::POINTS;
 use super::super::near::{Dips, dip};
 use super::super::structure::{excess, larger};
 use super::super::{ClosestCall, DecisionKind};
-use super::frame::{Pair, between, dot, norm, unit};
+use super::frame::{Pair, between, dot, norm, times, unit};
 use super::interval::FINE;
 use super::judge::PlaneJudge;
 use super::peaks::Acting;
@@ -157,9 +157,10 @@ impl PlaneJudge<'_> {
         self.figures.excess = larger(self.figures.excess, broken);
         if !stops {
             let push = self.forces(&state, &all[3]).0.push;
-            let clear = norm(push) > 1e-6 * (self.largest.1 + self.frame().slowing(&all[3], 0.0));
+            let slowing = self.frame().slowing(&all[3], 0.0);
+            let clear = norm(push) > 1e-6 * (self.largest.1 + slowing);
             self.turns.push(Turn {
-                direction: unit(push).filter(|_| clear),
+                direction: self.frame().body.departure(push, slowing).filter(|_| clear),
                 unsure: 0.0,
                 force_n: self.frame().block_kg * norm(push),
                 y_m: state.x[1],
@@ -188,9 +189,19 @@ impl PlaneJudge<'_> {
             let off = frame.block_kg * (p - f);
             self.figures.excess = larger(self.figures.excess, off);
         }
-        let (Some(from), Some(to)) = (self.last_heading(k), unit(push)) else { return };
+        let Some(from) = self.last_heading(k) else { return };
+        let Some(to) = self.last_direction(from, push, f) else { return };
         let acting =
             Acting { state: &state, loads: *loads, forces, floors: &floors, direction: Some(from) };
+        if !frame.body.is_one() {
+            let rate = frame.body.moved([push[0] - f * from[0], push[1] - f * from[1]]);
+            if sine(from, rate) >= STRAIGHT[0] {
+                let certain = sine(from, rate) >= STRAIGHT[1];
+                self.peaks.turn(&tracked, &acting, Some([from, to]), certain);
+            }
+            self.peaks.turn(&tracked, &acting, Some([from, to]), false);
+            return;
+        }
         if dot(from, to) >= 0.0 || sine(from, to) >= STRAIGHT[0] {
             let certain = !is_straight(from, to);
             self.peaks.turn(&tracked, &acting, Some([from, to]), certain);
@@ -198,6 +209,16 @@ impl PlaneJudge<'_> {
         if is_straight(from, to) {
             self.peaks.turn(&tracked, &acting, None, false);
         }
+    }
+
+    /// The direction that a slip has in the end under a push.
+    fn last_direction(&self, from: Pair, push: Pair, slowing: f64) -> Option<Pair> {
+        let body = &self.frame().body;
+        if body.is_one() || norm(push) >= slowing {
+            return body.departure(push, slowing);
+        }
+        // Of a speed that is of no account.
+        body.to_rest(times(from, 1e-200), push, slowing, 1.0)?.1
     }
 
     /// The last direction of sliding before a stop at a knot.
@@ -293,7 +314,8 @@ impl PlaneJudge<'_> {
         let loads = step.stretch.at(self.stepper.rule.points[point] * step.stretch.step_s);
         let push = self.push_at(step, point);
         let slowing = self.frame().slowing(&loads, norm(step.speed(point)));
-        dot(step.heading(point, push), push) - slowing
+        let u = step.heading(self.frame(), point, push);
+        dot(u, self.frame().body.moved([push[0] - slowing * u[0], push[1] - slowing * u[1]]))
     }
 
     /// Takes the speeds of a step of a slip.
@@ -342,12 +364,13 @@ impl PlaneJudge<'_> {
             });
         }
         self.speed = speed;
-        self.heading = Some(step.heading(POINTS - 1, self.push_at(step, POINTS - 1)));
+        self.heading = Some(step.heading(self.frame(), POINTS - 1, self.push_at(step, POINTS - 1)));
         // A push too small to tell the first direction grows into one that does.
+        let frame = self.frame();
         if let Some(turn) = self.turns.last_mut()
             && turn.direction.is_none()
         {
-            let [first, second] = [1, 2].map(|point| step.heading(point, [0.0; 2]));
+            let [first, second] = [1, 2].map(|point| step.heading(frame, point, [0.0; 2]));
             (turn.direction, turn.force_n) = (Some(first), f64::INFINITY);
             turn.unsure = 2.0 * norm([first[0] - second[0], first[1] - second[1]]);
         }

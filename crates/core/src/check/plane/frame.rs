@@ -7,11 +7,15 @@
 //! p = [1ᵀ(K q + C q̇) − K1 s − C1 w − N s/R]/M1 − a          ẇ = p − f u
 //! q̈_i = −(K q + C q̇)_i/m_i − a − ẇ
 //! ```
+//!
+//! A structure by its modes has one part a mode, an oscillator along a direction of its own that rides on the block. What
+//! the modes lack of the mass may be other along x than along y, and join both: `carried` in [`body`](super::body).
 
 use super::super::ground::Load;
 use super::super::law::Law;
 use super::super::structure::{Phase, StoreyDamping, Structure};
-use crate::model::Model;
+use super::body::{Body, PointOfModes, parts_of};
+use crate::model::{Model, Structure as ByModes};
 
 /// A vector (x, y).
 pub(super) type Pair = [f64; 2];
@@ -67,13 +71,19 @@ pub(super) struct Forces {
 pub(super) struct PlaneFrame<'a> {
     law: &'a Law,
     pub(super) block_kg: f64,
+    /// What moves with the block, over that.
+    pub(super) body: Body,
     pub(super) total_kg: f64,
     pub(super) spring: f64,
     pub(super) damper: f64,
     /// `1/R` of a spring that follows `N`.
     pub(super) curvature_per_m: f64,
-    /// Mass of each pair's parts from the first floor up.
+    /// Mass of each part of `q`, and along what it moves: floors along x and y in turn from the first up, or
+    /// oscillators.
     pub(super) masses_kg: Vec<f64>,
+    pub(super) along: Vec<Pair>,
+    /// Points of a structure by its modes; `None` of a frame.
+    pub(super) points: Option<Vec<PointOfModes>>,
     /// Rows of `K` and `C` over all parts of `q`, relative to the block.
     stiffness: Vec<f64>,
     damping: Vec<f64>,
@@ -88,6 +98,9 @@ pub(super) struct PlaneFrame<'a> {
 
 impl<'a> PlaneFrame<'a> {
     pub(super) fn new(model: &Model, vertical: bool, law: &'a Law, normal: f64) -> Self {
+        if let Some(structure) = model.structure() {
+            return Self::of_modes((model, structure), vertical, law, normal);
+        }
         let along_y = model.along_y();
         let other = (&along_y.stiffnesses_n_per_m[..], &along_y.damping);
         let axes = [Structure::new(model, vertical), Structure::of(model, other, vertical)];
@@ -118,11 +131,14 @@ impl<'a> PlaneFrame<'a> {
         Self {
             law,
             block_kg: x.block_kg,
+            body: Body::ONE,
             total_kg: x.total_kg,
             spring: x.spring,
             damper: x.damper,
             curvature_per_m,
             masses_kg: x.masses_kg.iter().flat_map(|mass| [*mass; 2]).collect(),
+            along: [[1.0, 0.0], [0.0, 1.0]].repeat(n),
+            points: None,
             stiffness,
             damping,
             rates: [fastest(Phase::Stick), fastest(Phase::Slip) + added + by_speed],
@@ -130,6 +146,75 @@ impl<'a> PlaneFrame<'a> {
             fixed: law.most(),
             most: law.most().max(law.most_sliding()),
         }
+    }
+
+    /// Of a structure by its modes.
+    fn of_modes(
+        (model, structure): (&Model, &ByModes),
+        vertical: bool,
+        law: &'a Law,
+        normal: f64,
+    ) -> Self {
+        // Slider and block are those of one direction.
+        let slider = Structure::new(model, vertical);
+        let parts = parts_of(structure);
+        let total_kg = model.total_mass_kg();
+        let mut own = [[total_kg, 0.0], [0.0, total_kg]];
+        for part in &parts {
+            for (row, of) in own.iter_mut().zip(part.along) {
+                row.iter_mut().zip(part.along).for_each(|(m, by)| *m -= part.mass_kg * of * by);
+            }
+        }
+        let block_kg = 0.5 * (own[0][0] + own[1][1]);
+        let body = Body::new(own.map(|row| row.map(|m| m / block_kg)));
+        let least_kg = block_kg / body.most_compliant();
+        let n = parts.len();
+        let rows = |of: &dyn Fn(usize) -> f64| {
+            let mut rows = vec![0.0; n * n];
+            (0..n).for_each(|i| rows[i * n + i] = parts[i].mass_kg * of(i));
+            rows
+        };
+        let omega = |i: usize| parts[i].frequency;
+        let stiffness = rows(&|i| omega(i) * omega(i));
+        let damping = rows(&|i| 2.0 * parts[i].damping_ratio * omega(i));
+        // Gershgorin's rows, as of a structure in one direction.
+        let most = |of: &dyn Fn(usize) -> f64| (0..n).map(of).fold(0.0, f64::max);
+        let sum = |rows: &[f64]| rows.iter().step_by(n + 1).sum::<f64>();
+        let frequency = most(&|i| core::f64::consts::SQRT_2 * omega(i));
+        let decay = most(&|i| 4.0 * parts[i].damping_ratio * omega(i));
+        let curvature_per_m = law.curvature_per_m();
+        let by_speed = law.rate.as_ref().map_or(0.0, |rate| rate.rate(normal / least_kg, 0.0, 0.0));
+        let pull = libm::sqrt((slider.spring + 2.0 * sum(&stiffness)) / least_kg);
+        let drag = (slider.damper + 2.0 * sum(&damping)) / least_kg;
+        let added = libm::sqrt(normal / least_kg * curvature_per_m) + by_speed;
+        Self {
+            law,
+            block_kg,
+            body,
+            total_kg,
+            spring: slider.spring,
+            damper: slider.damper,
+            curvature_per_m,
+            masses_kg: parts.iter().map(|part| part.mass_kg).collect(),
+            along: parts.iter().map(|part| part.along).collect(),
+            points: Some(PointOfModes::all(structure)),
+            stiffness,
+            damping,
+            rates: [frequency.max(decay), frequency.max(pull).max(decay.max(drag)) + added],
+            frequency,
+            fixed: law.most(),
+            most: law.most().max(law.most_sliding()),
+        }
+    }
+
+    /// What rides on the block of a vector of it, part by part.
+    pub(super) fn ridden(&self, part: usize, of_block: Pair) -> f64 {
+        dot(self.along[part], of_block)
+    }
+
+    /// What moves with the block times an acceleration, in N.
+    pub(super) fn inertia(&self, acceleration: Pair) -> Pair {
+        times(self.body.carried(acceleration), self.block_kg)
     }
 
     /// Parts of `x` and of `v`.
@@ -167,12 +252,13 @@ impl<'a> PlaneFrame<'a> {
             let elastic: f64 = rows[0].iter().zip(&x[2..]).map(|(k, q)| k * q).sum();
             let viscous: f64 = rows[1].iter().zip(&v[2..]).map(|(c, v)| c * v).sum();
             *floor = elastic + viscous;
-            base[i % 2] += *floor;
+            let [x, y] = times(self.along[i], *floor);
+            base = [base[0] + x, base[1] + y];
         }
         let stiffness = self.spring + self.curvature_per_m * loads[0].normal;
         let [spring, damper] =
             [[stiffness * x[0], stiffness * x[1]], times([v[0], v[1]], self.damper)];
-        let a = table(loads);
+        let a = self.body.carried(table(loads));
         let push = [0, 1].map(|i| (base[i] - spring[i] - damper[i]) / self.block_kg - a[i]);
         Forces { base, spring, damper, push }
     }
@@ -195,23 +281,29 @@ impl<'a> PlaneFrame<'a> {
 
     /// `(M1 w² + Σ m_i (w + q̇_i)²)/2`.
     pub(super) fn kinetic_energy(&self, v: &[f64]) -> f64 {
+        let w = [v[0], v[1]];
         let floors = self.masses_kg.iter().zip(&v[2..]).enumerate();
-        let floors = floors.map(|(i, (mass, own))| mass * (v[i % 2] + own) * (v[i % 2] + own));
-        0.5 * (self.block_kg * (v[0] * v[0] + v[1] * v[1]) + floors.sum::<f64>())
+        let floors = floors.map(|(i, (mass, own))| {
+            let whole = self.ridden(i, w) + own;
+            mass * whole * whole
+        });
+        0.5 * (dot(w, self.inertia(w)) + floors.sum::<f64>())
     }
 
     /// `M1 w + Σ m_i (w + q̇_i)`.
     pub(super) fn momentum(&self, v: &[f64]) -> Pair {
         let mut sum = [self.total_kg * v[0], self.total_kg * v[1]];
         for (i, (mass, own)) in self.masses_kg.iter().zip(&v[2..]).enumerate() {
-            sum[i % 2] += mass * own;
+            let [x, y] = times(self.along[i], mass * own);
+            sum = [sum[0] + x, sum[1] + y];
         }
         sum
     }
 
     /// The least mass of the block and the floors.
     pub(super) fn least_kg(&self) -> f64 {
-        self.masses_kg.iter().fold(self.block_kg, |least, mass| mass.min(least))
+        let block_kg = self.block_kg / self.body.most_compliant();
+        self.masses_kg.iter().fold(block_kg, |least, mass| mass.min(least))
     }
 }
 

@@ -3,7 +3,7 @@
 use super::super::collocation::{MAX_TURN, POINTS};
 use super::super::structure::{excess, larger};
 use super::decisions::{Place, is_straight};
-use super::frame::{Loads, dot, norm, table, unit};
+use super::frame::{Loads, Pair, dot, norm, table, unit};
 use super::judge::PlaneJudge;
 use super::peaks::Acting;
 use super::step::{State, Step, Stretch, time_to_rest};
@@ -129,10 +129,11 @@ impl PlaneJudge<'_> {
         let loads = self.instant(self.h.time_s[k + 1])[0];
         let push = norm(self.forces(&way.state, &loads).0.push);
         let slowing = self.frame().slowing(&loads, 0.0);
+        let faster = self.frame().body.most_compliant();
         let late_s = excess(rested_s.abs() - instant_s);
         if self.stops(k + 1) {
             let f = &mut self.figures;
-            f.velocity[0] = larger(f.velocity[0], late_s * (slowing + push));
+            f.velocity[0] = larger(f.velocity[0], late_s * faster * (slowing + push));
         } else if late_s > 0.0 {
             let off = self.frame().block_kg * (slowing - push);
             self.figures.excess = larger(self.figures.excess, excess(off));
@@ -181,7 +182,7 @@ impl PlaneJudge<'_> {
                 Reach::Rest(rest_s) => {
                     self.heading = unit(way.state.speed());
                     way.rested_s = Some(left_s - rest_s);
-                    way.state.lose_speed();
+                    way.state.lose_speed(self.frame());
                     return self.rest(way, &stretch.part(t, left_s));
                 }
                 Reach::Turn => {
@@ -246,7 +247,8 @@ impl PlaneJudge<'_> {
     fn outlook(&self, way: &Way, loads: &Loads) -> f64 {
         let r = norm(way.state.speed());
         let p = norm(self.forces(&way.state, loads).0.push);
-        if r > 0.0 { 2.0 * r / (self.frame().slowing(loads, r) + p) } else { f64::INFINITY }
+        let rate = self.frame().body.most_compliant() * (self.frame().slowing(loads, r) + p);
+        if r > 0.0 { 2.0 * r / rate } else { f64::INFINITY }
     }
 
     /// How far a slip goes from here without coming to rest.
@@ -259,14 +261,21 @@ impl PlaneJudge<'_> {
             return Reach::Free;
         }
         // How fast it slows down; against the push it turns as well.
-        let along = dot(w, push) / r;
-        let reach_s = 0.5 * r / if along < 0.0 { f + p } else { f - along };
+        let (along, body) = (dot(w, push) / r, &self.frame().body);
+        let slower = if along < 0.0 || !body.is_one() { f + p } else { f - along };
+        let reach_s = 0.5 * r / (body.most_compliant() * slower);
         if left_s <= reach_s {
             return Reach::Free;
         }
         let stops = self.stops(way.knot + 1);
-        let shortest_m = if is_straight(w, push) { SHORTEST_STRAIGHT_M } else { SHORTEST_M };
-        let rest_s = match time_to_rest(w, push, f) {
+        let straight = self.is_straight(w, push, f);
+        let shortest_m = if straight { SHORTEST_STRAIGHT_M } else { SHORTEST_M };
+        let to_rest = if body.is_one() {
+            time_to_rest(w, push, f)
+        } else {
+            body.to_rest(w, push, f, shortest_m).map(|(rest_s, _)| rest_s)
+        };
+        let rest_s = match to_rest {
             Some(rest_s) if r * rest_s < shortest_m => Some(rest_s),
             None if stops && self.rests(r) && p <= self.frame().holding(loads) * (1.0 + 1e-12) => {
                 Some(r / (f + p))
@@ -280,12 +289,23 @@ impl PlaneJudge<'_> {
         }
     }
 
+    /// Whether a motion against the push may be straight: it does not turn.
+    fn is_straight(&self, w: Pair, push: Pair, slowing: f64) -> bool {
+        let body = &self.frame().body;
+        if body.is_one() {
+            return is_straight(w, push);
+        }
+        let u = unit(w).unwrap_or_default();
+        let rate = body.moved([push[0] - slowing * u[0], push[1] - slowing * u[1]]);
+        dot(w, push) < 0.0 && is_straight(w, rate)
+    }
+
     /// Passes rest quicker than a time can tell: the block goes on along the push, if at all, and may have
     /// turned either way.
     fn turn_about(&mut self, way: &mut Way, loads: &Loads, at_s: f64) {
         let tracked = self.tracked();
         let direction = unit(way.state.speed());
-        way.state.lose_speed();
+        way.state.lose_speed(self.frame());
         let (forces, floors) = self.forces(&way.state, loads);
         let acting =
             Acting { state: &way.state, loads: *loads, forces, floors: &floors, direction };
@@ -371,7 +391,8 @@ impl PlaneJudge<'_> {
             let mut state = State::default();
             step.at_point(0, &mut state);
             let push = self.forces(&state, &step.stretch.loads[0]).0.push;
-            self.near_rest = Some(is_straight(state.speed(), push));
+            let slowing = self.frame().slowing(&step.stretch.loads[0], norm(state.speed()));
+            self.near_rest = Some(self.is_straight(state.speed(), push, slowing));
         }
         self.near_rest == Some(true)
     }

@@ -12,7 +12,7 @@ use super::super::outputs::Outputs;
 use super::super::structure::{excess, larger};
 use super::super::{Certificate, ClosestCall};
 use super::decisions::{Place, Speed, Turn};
-use super::frame::{Forces, Loads, Pair, PlaneFrame, norm, times, unit};
+use super::frame::{Forces, Loads, Pair, PlaneFrame, norm, unit};
 use super::peaks::{Acting, Peaks, Tracked};
 use super::step::{State, Stepper};
 use crate::error::Stopped;
@@ -137,6 +137,11 @@ impl<'a> PlaneJudge<'a> {
         let (h, y, n) = (self.h, self.given.along_y, self.h.storeys);
         let mut x = vec![h.sliding_displacement_m[k], y.sliding_displacement_m[k]];
         let mut v = vec![h.sliding_velocity_m_per_s[k], y.sliding_velocity_m_per_s[k]];
+        if self.frame().points.is_some() {
+            x.extend(h.storey_displacements(k));
+            v.extend(h.storey_velocities(k));
+            return State { x, v };
+        }
         for i in k * n..(k + 1) * n {
             x.extend([h.storey_displacement_m[i], y.storey_displacement_m[i]]);
             v.extend([h.storey_velocity_m_per_s[i], y.storey_velocity_m_per_s[i]]);
@@ -249,6 +254,20 @@ impl<'a> PlaneJudge<'a> {
             list.extend(x.into_iter().zip(y).flat_map(|(x, y)| [x, y]));
             list
         };
+        if self.frame().points.is_some() {
+            let of = |x: f64, y: f64, parts: Option<Vec<f64>>| {
+                let zeros = || vec![0.0; self.frame().masses_kg.len()];
+                [vec![x, y], parts.unwrap_or_else(zeros)].concat()
+            };
+            let [s, w] = [
+                [x.sliding_displacement_m, y.sliding_displacement_m],
+                [x.sliding_velocity_m_per_s, y.sliding_velocity_m_per_s],
+            ];
+            return State {
+                x: of(s[0], s[1], y.storey_displacement_m),
+                v: of(w[0], w[1], y.storey_velocity_m_per_s),
+            };
+        }
         let q = [model.initial_storey_displacement_m(), or_zeros(y.storey_displacement_m)];
         let v = [model.initial_storey_velocity_m_per_s(), or_zeros(y.storey_velocity_m_per_s)];
         State {
@@ -320,7 +339,8 @@ impl<'a> PlaneJudge<'a> {
             side.defect = norm(split);
         } else {
             let slid = frame.block_kg * frame.slowing(loads, norm(state.speed()));
-            let at_rest = (place == Place::Start).then(|| unit(forces.push)).flatten();
+            let departs = || frame.body.departure(forces.push, frame.slowing(loads, 0.0));
+            let at_rest = (place == Place::Start).then(departs).flatten();
             let off = match unit(state.speed()).or(at_rest) {
                 Some(u) => norm([0, 1].map(|i| friction[i] + slid * u[i])),
                 None => (norm(friction) - slid).abs(),
@@ -328,7 +348,7 @@ impl<'a> PlaneJudge<'a> {
             side.excess = excess(off - frame.most * normal_n);
         }
         let Forces { base, spring, damper, .. } = forces;
-        let inertia = times(block, frame.block_kg);
+        let inertia = frame.inertia(block);
         let balance = [0, 1].map(|i| inertia[i] - base[i] + spring[i] + damper[i] - friction[i]);
         side.defect = larger(side.defect, excess(norm(balance) - follows_n));
         for vector in [inertia, base, spring, damper, friction] {
@@ -337,7 +357,11 @@ impl<'a> PlaneJudge<'a> {
         let n = h.storeys;
         for (i, (force, mass)) in floors.iter().zip(&frame.masses_kg).enumerate() {
             let lists = [&h.storey_acceleration_m_per_s2, &y.storey_acceleration_m_per_s2];
-            let inertia = mass * lists[i % 2][k * n + i / 2];
+            let own = match frame.points {
+                Some(_) => lists[0][k * n + i],
+                None => lists[i % 2][k * n + i / 2],
+            };
+            let inertia = mass * own;
             side.defect = larger(side.defect, inertia + force);
             side.term = larger(side.term, inertia);
         }
@@ -367,7 +391,11 @@ impl<'a> PlaneJudge<'a> {
             let loads = all[if k == 0 { 1 } else { 2 }];
             let (forces, floors) = self.forces(&state, &loads);
             let slips = self.mode(k) != Mode::Stick;
-            let direction = unit(state.speed()).or(unit(forces.push)).filter(|_| slips);
+            let departs = || {
+                let frame = self.frame();
+                frame.body.departure(forces.push, frame.slowing(&loads, 0.0))
+            };
+            let direction = unit(state.speed()).or_else(departs).filter(|_| slips);
             let acting = Acting { state: &state, loads, forces, floors: &floors, direction };
             self.peaks.see(&self.tracked(), &acting);
         }

@@ -38,7 +38,11 @@ impl Acting<'_> {
             None => (a, times(push, -frame.block_kg)),
             Some(u) => {
                 let slowed = times(u, frame.slowing(&self.loads, norm(self.state.speed())));
-                let block = [0, 1].map(|i| push[i] + a[i] - slowed[i]);
+                let moved = frame.body.moved([push[0] - slowed[0], push[1] - slowed[1]]);
+                let block = match frame.body.is_one() {
+                    true => [0, 1].map(|i| push[i] + a[i] - slowed[i]),
+                    false => [moved[0] + a[0], moved[1] + a[1]],
+                };
                 (block, times(slowed, -frame.block_kg))
             }
         };
@@ -59,7 +63,7 @@ impl Tracked<'_> {
 
     fn vectors(&self, acting: &Acting<'_>, out: &mut Vec<Pair>) {
         let (frame, State { x, v }) = (self.frame, acting.state);
-        let n = frame.masses_kg.len() / 2;
+        let n = self.outputs.points();
         out.clear();
         out.resize(self.len(), [0.0; 2]);
         let [block, slider, friction] = acting.on_block(frame);
@@ -69,6 +73,25 @@ impl Tracked<'_> {
         out[FRICTION] = friction;
         out[BASE_SHEAR] = acting.forces.base;
         out[self.outputs.len()] = [x[0], x[1]];
+        if let Some(points) = &frame.points {
+            let of_part = |j: usize| -acting.floors[j] / frame.masses_kg[j];
+            let mut below = [0.0; 2];
+            let mut accelerations = Vec::with_capacity(n);
+            for (i, point) in points.iter().enumerate() {
+                let q = point.vector(|j| x[2 + j], [0.0; 2]);
+                let acceleration = point.vector(of_part, block);
+                out[STOREYS + i] = q;
+                out[STOREYS + n + i] = [q[0] - below[0], q[1] - below[1]];
+                out[STOREYS + 2 * n + i] = acceleration;
+                accelerations.push(acceleration);
+                below = q;
+            }
+            for axis in 0..2 {
+                let moment = self.outputs.plain_moment(block[axis], |i| accelerations[i][axis]);
+                out[OVERTURNING][axis] = moment;
+            }
+            return;
+        }
         for axis in 0..2 {
             let floor = |i: usize| -acting.floors[2 * i + axis] / frame.masses_kg[2 * i + axis];
             out[OVERTURNING][axis] = self.outputs.plain_moment(block[axis], floor);
@@ -90,7 +113,7 @@ impl Tracked<'_> {
         let loads = step.stretch.at(rule.points[point] * step.stretch.step_s);
         let mut floors = vec![0.0; self.frame.masses_kg.len()];
         let forces = self.frame.forces(&state.x, &state.v, &loads, &mut floors);
-        let direction = step.slips.then(|| step.heading(point, forces.push));
+        let direction = step.slips.then(|| step.heading(self.frame, point, forces.push));
         let acting = Acting { state: &state, loads, forces, floors: &floors, direction };
         self.vectors(&acting, out);
     }
@@ -137,6 +160,10 @@ impl Peaks {
         arc: Option<[Pair; 2]>,
         certain: bool,
     ) {
+        if !tracked.frame.body.is_one() {
+            self.turn_of_body(tracked, acting, arc, certain);
+            return;
+        }
         let (a, Forces { push, spring, damper, .. }) = (table(&acting.loads), acting.forces);
         let block = unit([-(push[0] + a[0]), -(push[1] + a[1])]);
         let slider = unit([0, 1].map(|i| spring[i] + damper[i]));
@@ -158,6 +185,54 @@ impl Peaks {
                 for (view, size) in sizes(vectors[g]).into_iter().enumerate() {
                     to[view][g] = larger(to[view][g], size);
                 }
+            }
+        }
+    }
+
+    /// The same where the acceleration of the block is not along friction: by looking along the arc, and closer where
+    /// an output is largest.
+    fn turn_of_body(
+        &mut self,
+        tracked: &Tracked<'_>,
+        acting: &Acting<'_>,
+        arc: Option<[Pair; 2]>,
+        certain: bool,
+    ) {
+        const LOOKS: usize = 48;
+        let full = 2.0 * core::f64::consts::PI;
+        let (first, turn) = arc.map_or((0.0, full), |[from, to]| {
+            (libm::atan2(from[1], from[0]), libm::atan2(cross(from, to), dot(from, to)))
+        });
+        let at = |part: f64, out: &mut Vec<Pair>| {
+            let angle = first + part * turn;
+            let direction = Some([libm::cos(angle), libm::sin(angle)]);
+            tracked.vectors(&Acting { direction, ..*acting }, out);
+        };
+        let mut all = vec![Vec::new(); LOOKS + 1];
+        for (i, vectors) in all.iter_mut().enumerate() {
+            at(i as f64 / LOOKS as f64, vectors);
+        }
+        let n = tracked.outputs.points();
+        let to = if certain { &mut self.largest } else { &mut self.possible };
+        let mut vectors = Vec::new();
+        for g in BY_DIRECTION.into_iter().chain((0..n).map(|i| STOREYS + 2 * n + i)) {
+            for view in 0..3 {
+                let size = |i: usize| sizes(all[i][g])[view];
+                let best =
+                    (1..=LOOKS).fold(0, |best, i| if size(i) > size(best) { i } else { best });
+                let mut most = size(best);
+                let [mut low, mut high] = [best.saturating_sub(1), (best + 1).min(LOOKS)]
+                    .map(|i| i as f64 / LOOKS as f64);
+                for _ in 0..40 {
+                    let [a, b] = [0.4, 0.6].map(|part| low + (high - low) * part);
+                    let [of_a, of_b] = [a, b].map(|part| {
+                        at(part, &mut vectors);
+                        sizes(vectors[g])[view]
+                    });
+                    most = most.max(of_a).max(of_b);
+                    if of_a > of_b { high = b } else { low = a }
+                }
+                to[view][g] = larger(to[view][g], most);
             }
         }
     }

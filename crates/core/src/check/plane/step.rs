@@ -39,10 +39,10 @@ impl State {
     }
 
     /// The block comes to rest in no time, the floors go on: `q̇_i += w`, then `w = 0`.
-    pub(super) fn lose_speed(&mut self) {
+    pub(super) fn lose_speed(&mut self, frame: &PlaneFrame<'_>) {
         let w = self.speed();
-        for (i, v) in self.v.iter_mut().enumerate().skip(2) {
-            *v += w[i % 2];
+        for (i, v) in self.v.iter_mut().skip(2).enumerate() {
+            *v += frame.ridden(i, w);
         }
         self.v[..2].fill(0.0);
     }
@@ -107,14 +107,20 @@ impl Step {
 
     /// The direction of a slip at a point under a push. At rest, in which a slip begins and ends along the push,
     /// what is left of the velocity is rounding; in straight motion it is that of the point beside it.
-    pub(super) fn heading(&self, point: usize, push: Pair) -> Pair {
+    pub(super) fn heading(&self, frame: &PlaneFrame<'_>, point: usize, push: Pair) -> Pair {
         let fastest = (0..POINTS).fold(0.0, |most: f64, i| most.max(norm(self.speed(i))));
         let w = self.speed(point);
         if norm(w) > ROUNDING * fastest {
             return unit(w).unwrap_or_default();
         }
         let beside = self.speed(if point == 0 { 1 } else { point - 1 });
-        let along = unit(push).filter(|u| dot(*u, beside) > 0.0);
+        let along = if frame.body.is_one() {
+            unit(push)
+        } else {
+            let part = if point == 0 { 0.0 } else { self.stretch.step_s };
+            frame.body.departure(push, frame.slowing(&self.stretch.at(part), 0.0))
+        };
+        let along = along.filter(|u| dot(*u, beside) > 0.0);
         along.or(unit(beside)).unwrap_or_default()
     }
 
@@ -210,13 +216,17 @@ impl Stepper<'_> {
         let push = self.frame.forces(&from.x, &from.v, loads, &mut floors).push;
         let u = unit(from.speed()).unwrap_or([0.0; 2]);
         let f = self.frame.slowing(loads, norm(from.speed()));
-        let block = [0, 1].map(|i| push[i] - f * u[i]);
+        let block = self.frame.body.moved([0, 1].map(|i| push[i] - f * u[i]));
+        let a = table(loads);
         for (k, list) in rates.iter_mut().enumerate() {
-            *list = [block[k % 2]; NODES];
-            if let Some(floor) = k.checked_sub(2) {
-                let pull = -floors[floor] / self.frame.masses_kg[floor] - loads[k % 2].a;
-                *list = [pull - block[k % 2]; NODES];
-            }
+            *list = match k.checked_sub(2) {
+                None => [block[k]; NODES],
+                Some(part) => {
+                    let [carried, moved] = [a, block].map(|of| self.frame.ridden(part, of));
+                    let pull = -floors[part] / self.frame.masses_kg[part] - carried;
+                    [pull - moved; NODES]
+                }
+            };
         }
     }
 
@@ -233,9 +243,11 @@ impl Stepper<'_> {
             step.at_point(1 + i, &mut state);
             let loads = between(&stretch.loads, self.rule.c[i]);
             let push = self.frame.forces(&state.x, &state.v, &loads, &mut floors).push;
-            let beyond = norm(push) - self.frame.slowing(&loads, 0.0);
+            let slowing = self.frame.slowing(&loads, 0.0);
+            let beyond = norm(push) - slowing;
             leaves |= beyond > 0.0;
-            let start = times(unit(push)?, beyond.max(1e-3 * beyond.abs()));
+            let along = self.frame.body.departure(push, slowing)?;
+            let start = times(along, beyond.max(1e-3 * beyond.abs()));
             (rates[0][i], rates[1][i]) = (start[0], start[1]);
         }
         leaves.then_some(())
@@ -258,7 +270,7 @@ impl Stepper<'_> {
                 let Forces { push, .. } = frame.forces(&state.x, &state.v, &loads, &mut floors);
                 let a = table(&loads);
                 for (k, (floor, mass)) in floors.iter().zip(&frame.masses_kg).enumerate() {
-                    pulls[i * (d - 2) + k] = -floor / mass - a[k % 2];
+                    pulls[i * (d - 2) + k] = -floor / mass - frame.ridden(k, a);
                 }
                 if !slips {
                     continue;
@@ -266,15 +278,18 @@ impl Stepper<'_> {
                 let w = state.speed();
                 let r = norm(w);
                 let [f, slope] = frame.slowing_and_slope(&loads, r);
-                let mut rate = push;
+                let mut rate = frame.body.moved(push);
                 let mut bend = [[0.0; 2]; 2];
                 if f > 0.0 && r > 0.0 {
                     let u = [w[0] / r, w[1] / r];
-                    rate = [push[0] - f * u[0], push[1] - f * u[1]];
-                    bend = [0, 1].map(|a| {
+                    rate = frame.body.moved([push[0] - f * u[0], push[1] - f * u[1]]);
+                    // It is symmetric, its columns are its rows.
+                    let rows = [0, 1].map(|a| {
                         let across = |b: usize| if a == b { 1.0 } else { 0.0 } - u[a] * u[b];
                         [0, 1].map(|b| f / r * across(b) + slope * u[a] * u[b])
                     });
+                    let columns = rows.map(|column| frame.body.moved(column));
+                    bend = [0, 1].map(|a| [columns[0][a], columns[1][a]]);
                 }
                 size = size.max(norm(push) + f);
                 system.take(rule, h, i, bend, [rate[0] - rates[0][i], rate[1] - rates[1][i]]);
@@ -291,7 +306,8 @@ impl Stepper<'_> {
             }
             for i in 0..NODES {
                 for k in 2..d {
-                    let rate = pulls[i * (d - 2) + k - 2] - rates[k % 2][i];
+                    let block = [rates[0][i], rates[1][i]];
+                    let rate = pulls[i * (d - 2) + k - 2] - frame.ridden(k - 2, block);
                     change = change.max((rate - rates[k][i]).abs());
                     size = size.max(rate.abs());
                     rates[k][i] = rate;

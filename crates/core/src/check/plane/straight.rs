@@ -14,6 +14,10 @@ use crate::slider::Direction;
 
 /// Along which axis all of a motion and of the initial state is, if it is along one.
 pub(super) fn only_axis(model: &Model, motion: &GroundMotion) -> Option<usize> {
+    // Modes may move along both axes whatever the table does.
+    if model.structure().is_some() {
+        return None;
+    }
     let stands = |initial: &InitialState, table: &[f64]| {
         let storeys = [&initial.storey_displacement_m, &initial.storey_velocity_m_per_s];
         let block = [initial.sliding_displacement_m, initial.sliding_velocity_m_per_s];

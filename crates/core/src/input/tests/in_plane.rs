@@ -236,3 +236,34 @@ fn exact_modes_wrong_along_y() {
         assert_eq!(error, expected, "{to}");
     }
 }
+
+/// Participations that no structure of this mass has between x and y, though along each of both it may.
+#[test]
+fn participations_of_other_signs_are_refused() {
+    let table = TABLE.replace(",200,-60,", ",220,-200,").replace(",60,200,", ",220,-200,");
+    let error = structure("", &table).unwrap_err();
+    let expected = "modes.csv:3:1: structure.mode.2: expected participations along x and y whose squares sum to \
+                    at most the mass of the structure in every direction between them: do their signs belong to \
+                    the same shapes?, found ";
+    assert!(error.starts_with(expected) && error.ends_with("kg with this mode"), "{error}");
+}
+
+/// Two directions ask for modes that are known along both.
+#[test]
+fn modes_along_x_alone_are_refused_in_two_directions() {
+    let refused = |motion: &str, table: &str| {
+        let text = format!("{BLOCK}[structure]\nmass = \"100 t\"\nmodes = \"modes.csv\"\n{motion}");
+        let modes = [Override::modes("modes.csv", table)];
+        parse("m.toml", &text, &modes).map(|_| ()).map_err(|error| error.to_string())
+    };
+    let along_x = "period_s,damping_ratio,participation_x,roof_x\n0.8,0.02,200,0.004\n";
+    let no_shape = TABLE.replace("roof_y", "top_x");
+    for table in [along_x, &no_shape] {
+        let error = refused(PAIR, table).unwrap_err();
+        let expected = "motion.record_y: expected modes that say what they do along y: participation_y of each \
+                        mode, and the shape NAME_y beside NAME_x at every point, found a structure known along \
+                        x alone";
+        assert!(error.starts_with("m.toml:") && error.ends_with(expected), "{error}");
+    }
+    assert_eq!(refused(PAIR, TABLE), Ok(()));
+}

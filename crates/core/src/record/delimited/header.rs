@@ -107,7 +107,7 @@ impl<'a> Header<'a> {
         columns: usize,
     ) -> Result<Option<Vec<Name>>, RecordError> {
         let Some(line) = &self.last else { return Ok(None) };
-        if let Some(names) = self.with_units(separator, columns) {
+        if let Some(names) = self.with_units(text, separator, columns)? {
             return Ok(Some(names));
         }
         let words = split(&comment_mark_cut(line), separator);
@@ -116,6 +116,10 @@ impl<'a> Header<'a> {
             return Err(text.error(line, 0, "a time history, not a spectrum", &line.trimmed()));
         }
         if words.len() == columns {
+            if self.is_named_before(separator, &words) {
+                let expected = "one line of names, or names and below them their units";
+                return Err(text.error(line, 0, expected, "names on two lines"));
+            }
             return Ok(Some(words.into_iter().map(Name::of).collect()));
         }
         if self.is_text && separator != Separator::Blank && words.len() > 1 {
@@ -125,10 +129,26 @@ impl<'a> Header<'a> {
         Ok(None)
     }
 
+    /// Whether the line before the names holds names too: the same, or some with a unit.
+    fn is_named_before(&self, separator: Separator, words: &[String]) -> bool {
+        let before = self.before.map_or(Vec::new(), |line| split(&line.trimmed(), separator));
+        let named = |word: &String| Name::of(word.clone()).unit.is_some();
+        before.len() == words.len() && (before == words || before.iter().any(named))
+    }
+
     /// Names on one line and their units on the next, as data loggers write them.
-    fn with_units(&self, separator: Separator, columns: usize) -> Option<Vec<Name>> {
-        let names = split(&self.before?.trimmed(), separator);
-        let units = self.last?.trimmed();
+    ///
+    /// # Errors
+    /// For a name that states another unit than the one below it.
+    fn with_units(
+        &self,
+        text: &Text,
+        separator: Separator,
+        columns: usize,
+    ) -> Result<Option<Vec<Name>>, RecordError> {
+        let (Some(before), Some(last)) = (self.before, self.last) else { return Ok(None) };
+        let names = split(&before.trimmed(), separator);
+        let units = last.trimmed();
         let units: Vec<String> = match separator {
             Separator::Blank if !units.contains('\t') => {
                 units.split_whitespace().map(str::to_owned).collect()
@@ -144,13 +164,16 @@ impl<'a> Header<'a> {
         let nothing = |unit: &String| unit.is_empty() || unit == "-";
         let are_units = units.iter().all(|unit| known(unit) || nothing(unit));
         if names.len() != columns || units.len() != columns || !are_units {
-            return None;
+            return Ok(None);
         }
-        let both = |(name, unit): (&String, &String)| match known(unit) {
-            true => Name::of(format!("{name} ({unit})")),
-            false => Name::of(name.clone()),
+        let both = |(name, unit): (&String, &String)| match bracket(name) {
+            _ if !known(unit) => Ok(Name::of(name.clone())),
+            None => Ok(Name::of(format!("{name} ({unit})"))),
+            Some((_, stated)) if stated == unit => Ok(Name::of(name.clone())),
+            Some(_) => Err(text.error(&last, 0, format!("the unit of {name:?}"), unit)),
         };
-        units.iter().any(known).then(|| names.iter().zip(&units).map(both).collect())
+        let named = || names.iter().zip(&units).map(both).collect::<Result<_, _>>();
+        units.iter().any(known).then(named).transpose()
     }
 
     /// How many names the last line has with a separator.

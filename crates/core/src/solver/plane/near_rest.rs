@@ -35,7 +35,7 @@ fn root([x, y]: [f64; 2]) -> [f64; 2] {
 
 /// Factors of the modes' series by `r`: coefficient `k` of `r x` of all modes.
 #[inline(always)]
-fn times(r: &Polynomial, list: &[f64], k: usize, sums: &mut [f64]) {
+pub(super) fn times(r: &Polynomial, list: &[f64], k: usize, sums: &mut [f64]) {
     let modes = sums.len();
     sums.fill(0.0);
     for i in 0..=k {

@@ -4,9 +4,10 @@
 //! derivative times the square of the part: where the ends and that bound cannot exceed what has been attained,
 //! nothing is looked for; else the part is halved.
 
+use super::mass::times;
 use super::series::{Kind, Series, square};
 use super::stop::Arc;
-use super::system::{State, System, norm};
+use super::system::{State, System, inner, norm};
 use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, curvature_bound, largest, value};
 use crate::numerics::algebra::dot;
 
@@ -152,7 +153,7 @@ pub(super) enum Output {
 }
 
 impl Output {
-    fn place(self, storeys: usize) -> usize {
+    fn place(self, points: usize) -> usize {
         match self {
             Self::Velocity => 0,
             Self::Block => 1,
@@ -161,15 +162,15 @@ impl Output {
             Self::Shear => 4,
             Self::Moment => 5,
             Self::Displacement(i) => 6 + i,
-            Self::Acceleration(i) => 6 + storeys + i,
-            Self::Drift(i) => 6 + 2 * storeys + i,
+            Self::Acceleration(i) => 6 + points + i,
+            Self::Drift(i) => 6 + 2 * points + i,
         }
     }
 }
 
 /// All peaks.
 pub(super) struct Peaks {
-    storeys: usize,
+    points: usize,
     all: Vec<Peak>,
     /// Room for a number of each mode.
     bends: Vec<f64>,
@@ -226,8 +227,8 @@ impl Peaks {
         let mut sliding = Peak::default();
         sliding.note(s);
         Self {
-            storeys: system.storeys,
-            all: vec![Peak::default(); 6 + 3 * system.storeys],
+            points: system.points,
+            all: vec![Peak::default(); 6 + 3 * system.points],
             bends: vec![0.0; system.modes()],
             sliding,
             peak_time_s: 0.0,
@@ -238,7 +239,7 @@ impl Peaks {
     }
 
     pub(super) fn of(&self, output: Output) -> Peak {
-        self.all[output.place(self.storeys)]
+        self.all[output.place(self.points)]
     }
 
     /// Looks for peaks in the first part of a series that begins at a time, and ends in a state.
@@ -253,25 +254,26 @@ impl Peaks {
             self.look_at_sliding(series, to, from_s);
             self.look_at(Output::Velocity, &series.w, to);
         }
-        self.look_at_block(system, series, to);
-        if system.storeys > 0 {
+        let block = self.look_at_block(system, series, to);
+        if system.modes() > 0 {
             self.look_at(Output::Shear, &series.shear, to);
-            self.look_at_storeys(system, (series, to), end);
+            self.look_at_points(system, (series, to), end, block.as_ref());
         }
     }
 
-    /// The outputs of the storeys, which are combinations of modes: their series are asked for where the bends
+    /// The outputs of the points, which are combinations of modes: their series are asked for where the bends
     /// of the modes are not enough.
-    fn look_at_storeys(
+    fn look_at_points(
         &mut self,
         system: &System,
         (series, to): (&Series, f64),
         (end, g): (&State, &[f64]),
+        block: Option<&[Polynomial; 2]>,
     ) {
         let mut bends = core::mem::take(&mut self.bends);
         let displacements = (&*series.eta, &*end.eta);
         series.bends(&series.eta, to, &mut bends);
-        for i in 0..system.storeys {
+        for i in 0..system.points {
             let rows = [system.floor(0, i), system.floor(1, i)];
             self.look_at_rows(Output::Displacement(i), rows, displacements, (series, to), &bends);
             if i > 0 {
@@ -280,8 +282,20 @@ impl Peaks {
             }
         }
         series.bends(&series.g, to, &mut bends);
-        for i in 0..system.storeys {
+        for i in 0..system.points {
             let rows = [system.floor(0, i), system.floor(1, i)];
+            if let (Some(part), Some(block)) = (system.with_block.get(i), block) {
+                // −Φ g + W b
+                let of_block = |axis: usize, k: usize| {
+                    part[axis][0] * block[0][k] + part[axis][1] * block[1][k]
+                };
+                let all = [0, 1].map(|axis| -> Polynomial {
+                    let of_modes = combined(rows[axis], &series.g, series.degree);
+                    core::array::from_fn(|k| of_block(axis, k) - of_modes[k])
+                });
+                self.look_at(Output::Acceleration(i), &all, to);
+                continue;
+            }
             self.look_at_rows(Output::Acceleration(i), rows, (&series.g, g), (series, to), &bends);
         }
         self.bends = bends;
@@ -296,7 +310,7 @@ impl Peaks {
         (series, to): (&Series, f64),
         bends: &[f64],
     ) {
-        let peak = &mut self.all[output.place(self.storeys)];
+        let peak = &mut self.all[output.place(self.points)];
         let ends = [list, last].map(|x| rows.map(|row| dot(row, &x[..row.len()])));
         let bend = rows.map(|row| row.iter().zip(bends).map(|(x, bend)| x.abs() * bend).sum());
         peak.note_ends(ends, to);
@@ -306,7 +320,7 @@ impl Peaks {
     }
 
     fn look_at(&mut self, output: Output, of: &[Polynomial; 2], to: f64) {
-        self.all[output.place(self.storeys)].look(of, to);
+        self.all[output.place(self.points)].look(of, to);
     }
 
     fn look_at_sliding(&mut self, series: &Series, to: f64, from_s: f64) {
@@ -334,8 +348,13 @@ impl Peaks {
         }
     }
 
-    /// The outputs that friction is part of.
-    fn look_at_block(&mut self, system: &System, series: &Series, to: f64) {
+    /// The outputs that friction is part of; the acceleration of a block that has more than one mass.
+    fn look_at_block(
+        &mut self,
+        system: &System,
+        series: &Series,
+        to: f64,
+    ) -> Option<[Polynomial; 2]> {
         let near = (series.kind == Kind::NearRest).then(|| near_rest(series, to));
         let pull = &series.pull;
         let block = Composed { steady: *pull, of_friction: 1.0 };
@@ -344,11 +363,32 @@ impl Peaks {
             steady: [0, 1].map(|k| slider_part(system, pull, &series.shear, k)),
             of_friction: system.block_kg,
         };
-        self.look_at_composed(Output::Block, &block, series, near.as_ref(), to);
         self.look_at_friction(system, &friction, series, near.as_ref(), to);
         self.look_at_composed(Output::SliderForce, &slider, series, near.as_ref(), to);
+        if let Some(mass) = &system.mass {
+            // b = C (P − φ)
+            let force = |axis: usize, k: usize| pull[axis][k] - series.friction[axis][k];
+            let mut block = [ZERO; 2];
+            for k in 0..=series.degree {
+                let b = times(&mass.inverse, [force(0, k), force(1, k)]);
+                (block[0][k], block[1][k]) = (b[0], b[1]);
+            }
+            self.look_at(Output::Block, &block, to);
+            for axis in 0..2 {
+                let Some((arm, along)) = &system.overturning[axis] else { continue };
+                let modes = combined(arm, &series.g, series.degree);
+                let mut steady = [ZERO; 2];
+                steady[axis] =
+                    core::array::from_fn(|k| inner(*along, [block[0][k], block[1][k]]) - modes[k]);
+                let moment = Composed { steady, of_friction: 0.0 };
+                self.look_at_moment(axis, &moment, series, None, to);
+            }
+            return Some(block);
+        }
+        self.look_at_composed(Output::Block, &block, series, near.as_ref(), to);
         for axis in 0..2 {
-            let Some((arm, block)) = &system.overturning[axis] else { continue };
+            let Some((arm, along)) = &system.overturning[axis] else { continue };
+            let block = &along[axis];
             // The moment of floors and block: −arm·g + block·b; the other axis is nothing.
             let modes = combined(arm, &series.g, series.degree);
             let mut steady = [ZERO; 2];
@@ -356,6 +396,7 @@ impl Peaks {
             let moment = Composed { steady, of_friction: *block };
             self.look_at_moment(axis, &moment, series, near.as_ref(), to);
         }
+        None
     }
 
     fn look_at_composed(
@@ -375,7 +416,7 @@ impl Peaks {
                 self.look_at(output, &of, to);
             }
             Some(near) => {
-                let peak = &mut self.all[output.place(self.storeys)];
+                let peak = &mut self.all[output.place(self.points)];
                 near.look(peak, composed, series, to);
             }
         }
@@ -391,9 +432,9 @@ impl Peaks {
         to: f64,
     ) {
         let is_constant = system.kinetic_per_kg.is_constant();
-        if is_constant && matches!(series.kind, Kind::Slip | Kind::Start) {
+        if is_constant && matches!(series.kind, Kind::Slip | Kind::Start | Kind::Turning) {
             let f: [Polynomial; 2] = series.friction.map(|f| scaled(&f, system.block_kg));
-            self.all[Output::FrictionForce.place(self.storeys)].look_at_axes(&f, to);
+            self.all[Output::FrictionForce.place(self.points)].look_at_axes(&f, to);
         } else {
             self.look_at_composed(Output::FrictionForce, friction, series, near, to);
         }
@@ -407,9 +448,9 @@ impl Peaks {
         near: Option<&NearRest>,
         to: f64,
     ) {
-        let kept = self.all[Output::Moment.place(self.storeys)];
+        let kept = self.all[Output::Moment.place(self.points)];
         self.look_at_composed(Output::Moment, moment, series, near, to);
-        let peak = &mut self.all[Output::Moment.place(self.storeys)];
+        let peak = &mut self.all[Output::Moment.place(self.points)];
         peak.axes[1 - axis] = kept.axes[1 - axis];
         // Lengths mean nothing here: kept out of the way.
         peak.norm = f64::INFINITY;
@@ -421,21 +462,60 @@ impl Peaks {
         system: &System,
         arc: &Arc,
         (pulls, shears_n): ([[f64; 2]; 2], [[f64; 2]; 2]),
+        g: &[f64],
     ) {
         let kg = system.block_kg;
         let slider = [0, 1].map(|i| [0, 1].map(|k| kg * pulls[i][k] - shears_n[i][k]));
+        if system.mass.is_some() {
+            self.note_arc_of_block(system, arc, pulls[1], g);
+        }
+        let block = (Output::Block, pulls, arc.friction);
         let of = [
-            (Output::Block, pulls, arc.friction),
             (Output::FrictionForce, [[0.0; 2]; 2], kg * arc.friction),
             (Output::SliderForce, slider, kg * arc.friction),
         ];
+        let of = of.into_iter().chain(system.mass.is_none().then_some(block));
         for (output, [from, to], c) in of {
-            let peak = &mut self.all[output.place(self.storeys)];
+            let peak = &mut self.all[output.place(self.points)];
             let within = arc.extremes(to).map(|u| (u, arc.part_left(u)));
             for (u, left) in within.chain([(arc.to, 0.0)]) {
                 peak.note([0, 1].map(|k| (to[k] + (from[k] - to[k]) * left) - c * u[k]));
             }
         }
+    }
+}
+
+impl Peaks {
+    /// The same of what a block with a mass in each direction is part of, `b = C (P − f u)`: over times as short as
+    /// that of the arc all but `u` stands.
+    fn note_arc_of_block(&mut self, system: &System, arc: &Arc, pull: [f64; 2], g: &[f64]) {
+        let block = |u: [f64; 2]| system.moved([0, 1].map(|k| pull[k] - arc.friction * u[k]));
+        let points = self.points;
+        let mut raise = |output: Output, of: &dyn Fn([f64; 2]) -> [f64; 2]| {
+            let peak = &mut self.all[output.place(points)];
+            peak.norm = peak.norm.max(arc.largest(|u| norm(of(u))));
+            for axis in 0..2 {
+                peak.axes[axis] = peak.axes[axis].max(arc.largest(|u| of(u)[axis].abs()));
+            }
+        };
+        raise(Output::Block, &block);
+        for (i, part) in system.with_block.iter().enumerate() {
+            let of_modes = [0, 1].map(|axis| dot(system.floor(axis, i), g));
+            let of = |u: [f64; 2]| {
+                let of_block = times(part, block(u));
+                [of_block[0] - of_modes[0], of_block[1] - of_modes[1]]
+            };
+            raise(Output::Acceleration(i), &of);
+        }
+        let moments = system
+            .overturning
+            .each_ref()
+            .map(|moment| moment.as_ref().map(|(arm, along)| (dot(arm, g), *along)));
+        let of = |u: [f64; 2]| {
+            let b = block(u);
+            moments.map(|moment| moment.map_or(0.0, |(modes, along)| inner(along, b) - modes))
+        };
+        raise(Output::Moment, &of);
     }
 }
 

@@ -26,7 +26,11 @@ pub(super) struct Recorder {
 }
 
 impl Recorder {
-    pub(super) fn new(storeys: usize) -> Self {
+    pub(super) fn new(system: &System) -> Self {
+        let storeys = match system.oscillators.len() {
+            0 => system.points,
+            oscillators => oscillators,
+        };
         let along_x = History { storeys, ..History::default() };
         Self { along_x, along_y: HistoryAlongY::default() }
     }
@@ -49,7 +53,13 @@ impl Recorder {
         both([&mut x.sliding_velocity_m_per_s, &mut y.sliding_velocity_m_per_s], knot.w);
         both([&mut x.block_acceleration_m_per_s2, &mut y.block_acceleration_m_per_s2], knot.block);
         both([&mut x.friction_force_n, &mut y.friction_force_n], knot.friction_n);
-        for i in 0..system.storeys {
+        for (j, per) in system.oscillators.iter().enumerate() {
+            x.storey_displacement_m.push(per * knot.eta[j]);
+            x.storey_velocity_m_per_s.push(per * knot.rate[j]);
+            x.storey_acceleration_m_per_s2.push(-(per * knot.g[j]));
+        }
+        let floors = if system.oscillators.is_empty() { system.points } else { 0 };
+        for i in 0..floors {
             let of = |list: &[f64]| [0, 1].map(|axis| dot(system.floor(axis, i), list));
             both([&mut x.storey_displacement_m, &mut y.storey_displacement_m], of(knot.eta));
             both([&mut x.storey_velocity_m_per_s, &mut y.storey_velocity_m_per_s], of(knot.rate));

@@ -17,6 +17,8 @@ pub(super) enum Kind {
     Start,
     /// Slip in the variable `τ`, `dt = |w| dτ`.
     NearRest,
+    /// The same by `|w|` and `u`, of a block with a mass in each direction.
+    Turning,
 }
 
 /// How far a series is taken.
@@ -146,7 +148,7 @@ impl Series {
         let lists = [&mut self.s, &mut self.w, &mut self.pull, &mut self.friction, &mut self.shear];
         lists.into_iter().for_each(|list| *list = [ZERO; 2]);
         match kind {
-            Kind::Slip | Kind::Start => self.direction = [ZERO; 2],
+            Kind::Slip | Kind::Start | Kind::Turning => self.direction = [ZERO; 2],
             Kind::NearRest => self.root = [ZERO; 2],
             Kind::Stick | Kind::Frictionless => {}
         }
@@ -220,22 +222,31 @@ impl Series {
         }
     }
 
+    /// Coefficient `k` of `p`, where the variable is the time.
+    #[inline(always)]
+    pub(super) fn push(&self, system: &System, k: usize) -> [f64; 2] {
+        let pull = [self.pull[0][k], self.pull[1][k]];
+        system.push(pull, [self.table(0, k), self.table(1, k)])
+    }
+
     /// Coefficient `k` of `f u`, or of `p` in stick.
     #[inline(always)]
     fn find_friction(&mut self, system: &System, along: &mut Along, k: usize) {
         match self.kind {
-            Kind::Frictionless | Kind::NearRest => return,
+            Kind::Frictionless | Kind::NearRest | Kind::Turning => return,
             Kind::Stick => {
-                for axis in 0..2 {
-                    self.friction[axis][k] = self.pull[axis][k] - self.table(axis, k);
-                }
+                let push = self.push(system, k);
+                (self.friction[0][k], self.friction[1][k]) = (push[0], push[1]);
                 return;
             }
             Kind::Slip => {
                 self.find_direction(k);
                 self.find_slowing(system, k);
             }
-            Kind::Start => self.find_start(system, along, k),
+            Kind::Start => match &system.mass {
+                None => self.find_start(system, along, k),
+                Some(mass) => self.find_start_of(system, mass, along, k),
+            },
         }
         for axis in 0..2 {
             self.friction[axis][k] = self.slowed(system, &self.direction[axis], k);
@@ -264,7 +275,7 @@ impl Series {
             return product(f, of, k);
         }
         match self.kind {
-            Kind::NearRest if self.loads.normal[1] != 0.0 => product(f, of, k),
+            Kind::NearRest | Kind::Turning if self.loads.normal[1] != 0.0 => product(f, of, k),
             // Linear in the time.
             _ if k > 0 => f[0] * of[k] + f[1] * of[k - 1],
             _ => f[0] * of[0],
@@ -301,14 +312,14 @@ impl Series {
     #[inline(always)]
     fn integrate(&mut self, system: &System, k: usize) {
         let (modes, per) = (system.modes(), self.unit / (k + 1) as f64);
-        let mut block = [0.0; 2];
+        let force = [0, 1].map(|axis| self.pull[axis][k] - self.friction[axis][k]);
+        let mut block = system.moved(force);
         for axis in 0..2 {
             let table = self.table(axis, k);
             if self.kind == Kind::Stick {
                 block[axis] = table;
                 continue;
             }
-            block[axis] = self.pull[axis][k] - self.friction[axis][k];
             self.s[axis][k + 1] = per * self.w[axis][k];
             self.w[axis][k + 1] = per * (block[axis] - table);
         }

@@ -112,7 +112,7 @@ pub(super) fn path_m(series: &Series, to: f64) -> f64 {
             series.unit * to * sum
         }
         // ∫ r² dτ
-        Kind::NearRest => gauss(0.0, to, &|x| {
+        Kind::NearRest | Kind::Turning => gauss(0.0, to, &|x| {
             let r = value(&series.speed, x);
             series.unit * r * r
         }),

@@ -1,7 +1,8 @@
 //! Slip from rest.
 
+use super::mass::{Mass, times};
 use super::series::{Along, Series, convolved};
-use super::system::{System, inner, norm};
+use super::system::{System, cross, inner, norm};
 use crate::linear::polynomial::Polynomial;
 
 impl Series {
@@ -47,6 +48,75 @@ impl Series {
             let within = |p: &Polynomial| if k > 1 { convolved(&p[1..k], &p[1..k]) } else { 0.0 };
             let c_k = -0.5 * (within(c) + within(s));
             (along.sine[k], along.cosine[k]) = (s_k, c_k);
+        }
+        let [e1, e2] = along.axes;
+        for axis in 0..2 {
+            self.direction[axis][k] = along.cosine[k] * e1[axis] + along.sine[k] * e2[axis];
+        }
+    }
+}
+
+impl Series {
+    /// The same of a block with a mass in each direction, `e₁ = u_0`: coefficient `k` of
+    ///
+    /// ```text
+    /// Ĉ (r u)' + f u = p
+    /// ```
+    ///
+    /// tells `s_k` and `r_{k+1}`, whose factors `(f + (k+1) r_1 Ĉ) e₂` and `(k+1) Ĉ e₁` are never along one line.
+    pub(super) fn find_start_of(
+        &mut self,
+        system: &System,
+        mass: &Mass,
+        along: &mut Along,
+        k: usize,
+    ) {
+        let h = self.unit;
+        let push = self.push(system, k);
+        self.find_slowing(system, k);
+        let f = &self.slowing;
+        if k == 0 {
+            let size = norm(push);
+            let (e, rate) = match beyond(size, f[0]) {
+                _ if size == 0.0 => ([1.0, 0.0], 0.0),
+                0.0 => (push.map(|p| p / size), 0.0),
+                _ => mass.departure(push, f[0]),
+            };
+            along.axes = [e, [-e[1], e[0]]];
+            (along.cosine[0], self.speed[1]) = (1.0, h * rate);
+            if rate == 0.0 {
+                // b = a: what of it is rounding is none.
+                let carried = times(&mass.relative, [self.table(0, 0), self.table(1, 0)]);
+                for axis in 0..2 {
+                    self.pull[axis][0] = carried[axis] + f[0] * e[axis];
+                }
+            }
+        } else {
+            let (c, s) = (&along.cosine, &along.sine);
+            let within = |p: &Polynomial| if k > 1 { convolved(&p[1..k], &p[1..k]) } else { 0.0 };
+            let c_k = -0.5 * (within(c) + within(s));
+            let (r, turns) = (&self.speed, (k + 1) as f64 / h);
+            // What is known of r u and f u, along e₁ and e₂.
+            let known = |list: &Polynomial| {
+                let of_f = convolved(&f[1..=k], &list[..k]);
+                let of_r = if k > 1 { convolved(&r[2..=k], &list[1..k]) } else { 0.0 };
+                [of_f, turns * of_r]
+            };
+            let ([f1, r1], [f2, r2]) = (known(c), known(s));
+            let [e1, e2] = along.axes;
+            let of_r = [r1 + turns * r[1] * c_k, r2];
+            let of_f = [f1 + f[0] * c_k, f2];
+            let placed = |x: [f64; 2]| [0, 1].map(|axis| x[0] * e1[axis] + x[1] * e2[axis]);
+            let (moved, taken) = (times(&mass.relative, placed(of_r)), placed(of_f));
+            let rest = [0, 1].map(|axis| push[axis] - moved[axis] - taken[axis]);
+            let [g1, g2] = [e1, e2].map(|e| times(&mass.relative, e));
+            let of_sine = [0, 1].map(|axis| f[0] * e2[axis] + turns * r[1] * g2[axis]);
+            let of_speed = g1.map(|x| turns * x);
+            let per = 1.0 / cross(of_speed, of_sine);
+            (along.cosine[k], along.sine[k]) = (c_k, cross(of_speed, rest) * per);
+            if k < self.accuracy.order {
+                self.speed[k + 1] = cross(rest, of_sine) * per;
+            }
         }
         let [e1, e2] = along.axes;
         for axis in 0..2 {

@@ -53,12 +53,13 @@ impl Plane<'_> {
     /// What of that is rounding at an instant of a stick, with `g` of that instant.
     pub(super) fn rounding_of_distance(&self, loads: &Loads, push: [f64; 2], g: &[f64]) -> f64 {
         let (system, mut terms) = (&self.system, 0.0);
+        let [_, inertia] = system.stretches();
         for axis in 0..2 {
             let l = &system.participation[axis];
             let shear: f64 = l.iter().zip(g).map(|(l, g)| (l * g).abs()).sum();
             let springs = system.stiffness_n_per_m + loads.normal[0] * system.per_radius;
             let slider = springs * self.state.s[axis].abs();
-            terms += (shear + slider) / system.block_kg + loads.table[axis][0].abs();
+            terms += (shear + slider) / system.block_kg + inertia * loads.table[axis][0].abs();
         }
         let holds = system.hold.radius(loads.normal[0]);
         2.0 * ROUNDING * (holds * holds + norm(push).max(holds) * terms)
@@ -106,7 +107,8 @@ impl Plane<'_> {
             return at_s;
         }
         let u = w.map(|w| w / at.speed);
-        let change = norm([at.push[0] - friction * u[0], at.push[1] - friction * u[1]]);
+        let force = [at.push[0] - friction * u[0], at.push[1] - friction * u[1]];
+        let change = norm(self.system.moved(force));
         let reach_s = REACH * at.speed / change;
         let near_s = at.speed / (friction + push);
         // A step near rest covers some three times r/(f + |p|), and costs two or three of these.
@@ -149,7 +151,11 @@ impl Plane<'_> {
         let unit = near_rest::unit(at.speed, at.friction + norm(at.push), left_s);
         let (system, scales) = (&self.system, &self.scales);
         let [_, sums] = &mut self.scratch;
-        self.series.expand_near_rest(system, &self.state, (loads, unit), scales, sums);
+        if system.mass.is_some() {
+            self.series.expand_turning(system, &self.state, (loads, unit), scales, sums);
+        } else {
+            self.series.expand_near_rest(system, &self.state, (loads, unit), scales, sums);
+        }
         let to = self.series.part_at(left_s);
         let part = to.unwrap_or(self.series.part);
         self.move_part(stretch, at_s, part);
@@ -171,9 +177,10 @@ impl Plane<'_> {
         }
         self.state.w = [0.0; 2];
         let to = self.instant(&loads.after(time_s));
-        let arc = at.arc(w, &to);
+        let arc = at.arc(&self.system, w, &to);
         let shear_n = self.system.shear_n(&self.scratch[0]);
-        self.peaks.note_arc(&self.system, &arc, ([from.0, to.pull], [from.1, shear_n]));
+        let of = ([from.0, to.pull], [from.1, shear_n]);
+        self.peaks.note_arc(&self.system, &arc, of, &self.scratch[0]);
         self.direction = arc.to;
     }
 

@@ -5,6 +5,12 @@ use super::system::{Loads, State, System, cross, inner, norm};
 /// A path below which a slip has stopped, in m.
 const NO_PATH_M: f64 = 1e-22;
 
+/// A bound on the path beyond which the way to rest of a block with a mass in each direction is not followed.
+const MASSIVE_PATH_M: f64 = 1e2 * NO_PATH_M;
+
+/// Parts of an arc that are looked at.
+const LOOKS: usize = 32;
+
 /// Part of the peak of the speed in a slip below which a block rests.
 pub(super) const REST: f64 = 1e-14;
 
@@ -33,7 +39,7 @@ impl Instant {
         Self {
             speed,
             pull,
-            push: loads.push(pull),
+            push: loads.push(system, pull),
             friction,
             to_rest: [friction.min(at_rest), friction.max(at_rest)],
             holds: system.hold.radius(loads.normal[0]),
@@ -53,21 +59,29 @@ impl Instant {
         if !(p < f) {
             return None;
         }
-        let time_s = (f * r + inner(self.push, state.w)) / ((f - p) * (f + p));
+        let [compliance, inertia] = system.stretches();
+        // d|w|_Ĉ/dt ≤ −(f − p)/√λ, λ the largest eigenvalue of Ĉ.
+        let longest_s = inertia * (r / (f - p));
+        let time_s = match &system.mass {
+            None => (f * r + inner(self.push, state.w)) / ((f - p) * (f + p)),
+            Some(_) if !(r * longest_s < MASSIVE_PATH_M) => return None,
+            Some(mass) => mass.to_rest(state.w, self.push, f).0,
+        };
         if !(r * time_s < NO_PATH_M) {
             return None;
         }
-        let longest_s = r / (f - p);
         let per_n = most / loads.normal[0];
         let of_friction = per_n * loads.normal[1].abs();
-        let rate = 2.0 * self.rate_of_push(system, state, loads, g) + of_friction;
+        let rate =
+            2.0 * inertia * compliance * self.rate_of_push(system, state, loads, g) + of_friction;
         (p + rate * longest_s < f).then_some(time_s.max(0.0))
     }
 
     /// A bound on `|ṗ|` over times in which nothing but the direction of `w` changes: there `|b| ≤ |P| + f`.
     fn rate_of_push(&self, system: &System, state: &State, loads: &Loads, g: &[f64]) -> f64 {
         let modes = system.modes();
-        let largest = norm(self.pull) + self.to_rest[1];
+        let [compliance, inertia] = system.stretches();
+        let largest = compliance * (norm(self.pull) + self.to_rest[1]);
         let mut bound = 0.0;
         let mut of_rates = vec![0.0; modes];
         let forces: Vec<f64> = (0..modes)
@@ -87,7 +101,7 @@ impl Instant {
             let slider = springs * state.w[axis].abs()
                 + (loads.normal[1] * system.per_radius * state.s[axis]).abs()
                 + system.damper_n_s_per_m * (largest + loads.table[axis][0].abs());
-            bound += (shear + slider) / system.block_kg + loads.table[axis][1].abs();
+            bound += (shear + slider) / system.block_kg + inertia * loads.table[axis][1].abs();
         }
         bound
     }
@@ -99,12 +113,26 @@ impl Instant {
 
     /// Directions that friction has on the arc at a stop, from that of `w` to that of `p` at rest; in straight
     /// motion the first alone.
-    pub(super) fn arc(&self, w: [f64; 2], at_rest: &Self) -> Arc {
+    pub(super) fn arc(&self, system: &System, w: [f64; 2], at_rest: &Self) -> Arc {
         let (p, push) = (norm(at_rest.push), at_rest.push);
-        let is_straight =
-            inner(w, push) < 0.0 && cross(w, push).abs() < STRAIGHT * (self.speed * p);
         let from = w.map(|w| w / self.speed);
-        let to = if p == 0.0 || is_straight { from } else { push.map(|x| x / p) };
+        let to = match &system.mass {
+            Some(mass) => {
+                let f = at_rest.friction;
+                let rate = system.moved([0, 1].map(|k| push[k] - f * from[k]));
+                let is_straight = cross(from, rate).abs() < STRAIGHT * norm(rate);
+                match is_straight {
+                    true => from,
+                    false if p < f => mass.to_rest(w, push, f).1,
+                    false => system.departure(push, f),
+                }
+            }
+            None => {
+                let is_straight =
+                    inner(w, push) < 0.0 && cross(w, push).abs() < STRAIGHT * (self.speed * p);
+                if p == 0.0 || is_straight { from } else { push.map(|x| x / p) }
+            }
+        };
         Arc { from, to, push: p, friction: at_rest.friction }
     }
 }
@@ -138,6 +166,30 @@ impl Arc {
         let ratio = libm::pow(tangent / first, self.friction / self.push) * (of_first / sine);
         let left = ratio * (factor / first_factor);
         if left.is_finite() { left.clamp(0.0, 1.0) } else { 0.0 }
+    }
+
+    /// The largest of a function of the direction on it, where that is no vector less a multiple of it.
+    pub(super) fn largest(&self, of: impl Fn([f64; 2]) -> f64) -> f64 {
+        let turn = libm::atan2(cross(self.from, self.to), inner(self.from, self.to));
+        let at = |part: f64| {
+            let (sine, cosine) = (libm::sin(part * turn), libm::cos(part * turn));
+            let [x, y] = self.from;
+            of([cosine * x - sine * y, sine * x + cosine * y])
+        };
+        let step = 1.0 / LOOKS as f64;
+        let values: Vec<f64> = (0..=LOOKS).map(|i| at(step * i as f64)).collect();
+        let better = |best: usize, i: usize| if values[i] > values[best] { i } else { best };
+        let best = (1..=LOOKS).fold(0, better);
+        let [mut low, mut high] =
+            [best.saturating_sub(1), (best + 1).min(LOOKS)].map(|i| step * i as f64);
+        let mut most = values[best];
+        for _ in 0..60 {
+            let [a, b] = [0.4, 0.6].map(|part| low + (high - low) * part);
+            let [of_a, of_b] = [at(a), at(b)];
+            most = most.max(of_a).max(of_b);
+            if of_a > of_b { high = b } else { low = a }
+        }
+        most
     }
 
     /// Directions within it at which `A − c u` is extreme: `−A/|A|`, and ±x, ±y.

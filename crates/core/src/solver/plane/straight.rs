@@ -9,7 +9,8 @@ use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::progress::Pulse;
 use crate::response::{
-    Demands, EventInPlane, History, HistoryAlongY, InPlane, Method, Response, StoreyDemands,
+    Demands, EventInPlane, History, HistoryAlongY, InPlane, Method, PointFactorsInPlane, Response,
+    StoreyDemands,
 };
 use crate::solver::course::Course;
 use crate::solver::ground::{Ground, contact_loss_s};
@@ -17,8 +18,12 @@ use crate::solver::slider::SliderState;
 use crate::solver::summary;
 use crate::solver::walk::Walk;
 
-/// Along which axis all of a motion and of the initial state is, if it is along one.
+/// Along which axis all of a motion and of the initial state is, if it is along one. The modes of a structure may
+/// move along both axes whatever the table does.
 pub(in crate::solver) fn only_axis(model: &Model, motion: &GroundMotion) -> Option<usize> {
+    if model.structure().is_some() {
+        return None;
+    }
     let turned = along_y(model);
     let stands = |model: &Model, table: &[f64]| {
         let initial = model.initial();
@@ -111,6 +116,7 @@ fn moving_part(history: &History) -> HistoryAlongY {
         storey_displacement_m: history.storey_displacement_m.clone(),
         storey_velocity_m_per_s: history.storey_velocity_m_per_s.clone(),
         storey_acceleration_m_per_s2: history.storey_acceleration_m_per_s2.clone(),
+        points: None,
     }
 }
 
@@ -126,6 +132,7 @@ fn still_part(moved: &HistoryAlongY) -> HistoryAlongY {
         storey_displacement_m: none(&moved.storey_displacement_m),
         storey_velocity_m_per_s: none(&moved.storey_velocity_m_per_s),
         storey_acceleration_m_per_s2: none(&moved.storey_acceleration_m_per_s2),
+        points: None,
     }
 }
 
@@ -172,7 +179,8 @@ pub(in crate::solver) fn solve(
     };
     let demands = of(model, Part::Resultant);
     let history = phase.recorder.map(|recorder| {
-        in_plane.history = Some(recorder.along_y);
+        let points = PointFactorsInPlane::of(model);
+        in_plane.history = Some(HistoryAlongY { points, ..recorder.along_y });
         recorder.along_x
     });
     in_plane.events = phase.events;

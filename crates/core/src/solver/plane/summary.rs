@@ -30,24 +30,28 @@ pub(super) fn demands(
     (events, sliding, slides): (&[Event], &Sliding, bool),
     part: Part,
 ) -> Demands {
-    let (n, weight_n, peaks) = (model.storeys(), model.weight_n(), &plane.peaks);
+    let (n, weight_n, peaks) = (model.points(), model.weight_n(), &plane.peaks);
     let peak = |output: Output| part.of(peaks.of(output));
     let storeys = (0..n).map(|i| {
         let displacement = peak(Output::Displacement(i));
         let drift = if i == 0 { displacement } else { peak(Output::Drift(i)) };
-        let heights_m = model.frame().heights_m.as_ref();
         StoreyDemands {
             peak_acceleration_m_per_s2: peak(Output::Acceleration(i)),
             peak_displacement_m: displacement,
             peak_drift_m: drift,
-            peak_drift_ratio: heights_m.map(|heights_m| drift / heights_m[i]),
+            peak_drift_ratio: model.rise_m(i).map(|rise_m| drift / rise_m),
         }
     });
+    let (storeys, points) = match model.structure() {
+        Some(_) => (Vec::new(), storeys.collect()),
+        None => (storeys.collect(), Vec::new()),
+    };
     let [shear_n, friction_n, slider_n] =
         [Output::Shear, Output::FrictionForce, Output::SliderForce].map(peak);
     let s = plane.state.s;
     let by_part = Demands {
-        storeys: storeys.collect(),
+        storeys,
+        points,
         peak_sliding_velocity_m_per_s: peak(Output::Velocity),
         peak_block_acceleration_m_per_s2: peak(Output::Block),
         peak_base_shear_n: shear_n,

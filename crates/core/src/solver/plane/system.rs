@@ -1,12 +1,17 @@
 //! The equations of motion in two horizontal directions.
 
+use super::mass::{Mass, Matrix, times};
 use crate::error::SolveError;
 use crate::linear;
-use crate::model::Model;
+use crate::model::{Model, OscillatorInPlane, Structure};
 use crate::numerics::algebra::dot;
 use crate::slider::{Disc, Kinetic};
 use crate::solver::outputs::overturning;
 use crate::solver::tables::system_of;
+
+/// Part of a structure's mass, and of a point's motion, below which what moves with the block beside what does
+/// along x and y alike is the rounding of the modes.
+const ROUNDED: f64 = 2e-14;
 
 /// Block, spring, damper and structure in the structure's fixed-base modes `η`, each with a participation `L_j`
 /// along x and one along y: nothing assumes that a mode moves along one of them alone.
@@ -20,10 +25,15 @@ use crate::solver::tables::system_of;
 /// ```
 ///
 /// Ω is diagonal, and so is D where damping is a ratio; dampers between floors couple the modes by a full D.
+///
+/// What modes that are not given lack of the mass moves with the block, as much as it may be along x, along y and
+/// across: where that is no multiple of the identity the block has a [`Mass`].
 pub(in crate::solver) struct System {
-    pub(super) storeys: usize,
+    /// Number of points whose motion is told: floors, or points of a structure by its modes.
+    pub(super) points: usize,
     /// `M1` in kg.
     pub(super) block_kg: f64,
+    pub(super) mass: Option<Mass>,
     /// `K1` in N/m without that of a pendulum, and `C1` in N s/m.
     pub(super) stiffness_n_per_m: f64,
     pub(super) damper_n_s_per_m: f64,
@@ -38,11 +48,15 @@ pub(in crate::solver) struct System {
     coupled: bool,
     /// `L` along x and y.
     pub(super) participation: [Vec<f64>; 2],
-    /// `Φ` along x and y: floor `i`, mode `j` at `i * modes + j`; drifts of the storeys in the same way.
+    /// `Φ` along x and y: point `i`, mode `j` at `i * modes + j`; drifts from the point before in the same way.
     floors: [Vec<f64>; 2],
     drifts: [Vec<f64>; 2],
+    /// What of each point's acceleration is the block's; none where nothing is.
+    pub(super) with_block: Vec<Matrix>,
+    /// Of oscillators along their directions, `1/|L|`; none of a frame.
+    pub(super) oscillators: Vec<f64>,
     /// What the modes and the block add to the overturning moment along x and y, where it is asked for.
-    pub(super) overturning: [Option<(Vec<f64>, f64)>; 2],
+    pub(super) overturning: [Option<(Vec<f64>, [f64; 2])>; 2],
     /// Bound on the rates in rad/s.
     pub(in crate::solver) rate_rad_per_s: f64,
 }
@@ -63,6 +77,9 @@ impl System {
         if !model.contents().is_empty() {
             return Err(refused("contents"));
         }
+        if let Some(structure) = model.structure() {
+            return Self::of_modes(model, structure);
+        }
         let turned = along_y(model);
         let models = [model, &turned];
         let axes = models.map(system_of);
@@ -77,8 +94,9 @@ impl System {
         let coupled = n > 0 && axes.iter().any(|axis| axis.uncoupled_modes().is_none());
         let per_kg = 1.0 / model.block().mass_kg;
         Ok(Self {
-            storeys: n,
+            points: n,
             block_kg: model.block().mass_kg,
+            mass: None,
             stiffness_n_per_m: slider.stiffness_n_per_m,
             damper_n_s_per_m: model.slider().damper_n_s_per_m,
             per_radius: slider.per_radius,
@@ -94,17 +112,139 @@ impl System {
             participation: each_axis(&|k| place(k, &axes[k].participation)),
             floors: each_axis(&|k| (0..n).flat_map(|i| place(k, axes[k].floor(i))).collect()),
             drifts: each_axis(&|k| (0..n).flat_map(|i| place(k, axes[k].drift(i))).collect()),
+            with_block: Vec::new(),
+            oscillators: Vec::new(),
             overturning: [0, 1].map(|k| {
                 let found = overturning(models[k], &axes[k])?;
                 let (arm, block) = found.all();
-                Some((place(k, if n == 0 { &[] } else { arm }), block))
+                let along = if k == 0 { [block, 0.0] } else { [0.0, block] };
+                Some((place(k, if n == 0 { &[] } else { arm }), along))
             }),
             rate_rad_per_s: axes.iter().fold(0.0, |rate: f64, a| rate.max(a.slip_rate_rad_per_s)),
         })
     }
 
+    /// Of a structure by its modes, each of which may move along both axes.
+    fn of_modes(model: &Model, structure: &Structure) -> Result<Self, SolveError> {
+        let refused = |what| SolveError::NotTaken { method: "two horizontal directions", what };
+        let slider = model.slider().isotropic().map_err(refused)?;
+        if structure.in_plane.is_empty() {
+            return Err(refused("a structure whose modes do not say what they do along y"));
+        }
+        let modes = structure.oscillators_in_plane();
+        let n = structure.points.len();
+        let sizes: Vec<f64> = modes.iter().map(|mode| mode.mass_kg.sqrt()).collect();
+        let of_modes =
+            |of: &dyn Fn(&OscillatorInPlane) -> f64| -> Vec<f64> { modes.iter().map(of).collect() };
+        let participation =
+            [0, 1].map(|k| of_modes(&|mode| mode.mass_kg.sqrt() * mode.direction[k]));
+        let rows = |k: usize| -> Vec<Vec<f64>> {
+            let shape = |i: usize| of_modes(&|mode| mode.points[i][k] / mode.mass_kg.sqrt());
+            (0..n).map(shape).collect()
+        };
+        let floors = [rows(0), rows(1)];
+        let drifts = floors.each_ref().map(|rows| {
+            let below = |i: usize, j: usize| if i == 0 { 0.0 } else { rows[i - 1][j] };
+            let drift = |(i, row): (usize, &Vec<f64>)| -> Vec<f64> {
+                row.iter().enumerate().map(|(j, x)| x - below(i, j)).collect()
+            };
+            rows.iter().enumerate().flat_map(drift).collect()
+        });
+        // What moves with the block: M_tot I − Σ L Lᵀ.
+        let [[x, across], [_, y]] = structure.mass_in_plane_kg();
+        let total_kg = model.total_mass_kg();
+        let own = [[total_kg - x, -across], [-across, total_kg - y]];
+        let with_block: Vec<Matrix> = (0..n).map(|i| structure.with_block_in_plane(i)).collect();
+        let is_rounding = |x: f64| x.abs() <= ROUNDED * (1.0 + (modes.len() as f64).sqrt());
+        let block_kg = 0.5 * (own[0][0] + own[1][1]);
+        let all_there = is_rounding(0.5 * (own[0][0] - own[1][1]) / total_kg)
+            && is_rounding(across / total_kg)
+            && with_block.iter().flatten().flatten().all(|x| is_rounding(*x));
+        let mass = if all_there { None } else { Some(Mass::new(own, block_kg)) };
+        let with_block = if all_there { Vec::new() } else { with_block };
+        let arms = structure.shares().map(|_| model.lever_arms().unwrap_or_default());
+        let widths = [model.block().width_m, model.along_y().width_m];
+        let moment = |k: usize| {
+            widths[k]?;
+            let (mut arm, mut along) = (vec![0.0; modes.len()], [0.0; 2]);
+            along[k] = 0.5 * model.block().height_m.unwrap_or(0.0) * model.bare_block_kg();
+            for (i, [mass_kg, above_m]) in arms.as_ref()?.iter().enumerate() {
+                let lever = mass_kg * above_m;
+                arm.iter_mut().zip(&floors[k][i]).for_each(|(arm, phi)| *arm += lever * phi);
+                if let Some(with_block) = with_block.get(i) {
+                    along.iter_mut().zip(with_block[k]).for_each(|(a, part)| *a += lever * part);
+                }
+            }
+            Some((arm, along))
+        };
+        let overturning = [moment(0), moment(1)];
+        let per_kg = 1.0 / block_kg;
+        let omega2 = of_modes(&|mode| mode.frequency_rad_per_s * mode.frequency_rad_per_s);
+        let damping = of_modes(&|mode| 2.0 * mode.damping_ratio * mode.frequency_rad_per_s);
+        // As of a system in one direction, over the least mass of the block.
+        let least_kg = block_kg / mass.as_ref().map_or(1.0, Mass::compliance);
+        let pulled = |list: &[f64]| {
+            let of = sizes.iter().zip(list).map(|(l, x)| l * l * x);
+            of.sum::<f64>() / least_kg
+        };
+        let most = |list: &[f64]| list.iter().fold(0.0, |most: f64, x| most.max(*x));
+        let spring = model.slider_stiffness_n_per_m() / least_kg;
+        let damper_n_s_per_m = model.slider().damper_n_s_per_m;
+        let rate_rad_per_s = (most(&omega2) + (spring + pulled(&omega2))).sqrt()
+            + most(&damping)
+            + (damper_n_s_per_m / least_kg + pulled(&damping));
+        Ok(Self {
+            points: n,
+            block_kg,
+            mass,
+            stiffness_n_per_m: slider.stiffness_n_per_m,
+            damper_n_s_per_m,
+            per_radius: slider.per_radius,
+            static_per_kg: slider.fixed * per_kg,
+            kinetic_per_kg: slider.kinetic.times(per_kg),
+            omega2,
+            damping,
+            coupled: false,
+            participation,
+            floors: floors.map(|rows| rows.into_iter().flatten().collect()),
+            drifts,
+            with_block,
+            oscillators: sizes.iter().map(|size| 1.0 / size).collect(),
+            overturning,
+            rate_rad_per_s,
+        })
+    }
+
     pub(super) fn modes(&self) -> usize {
         self.omega2.len()
+    }
+
+    /// `p` from `P` and the acceleration of the table: what a block at rest is asked for.
+    #[inline(always)]
+    pub(super) fn push(&self, pull: [f64; 2], table: [f64; 2]) -> [f64; 2] {
+        let carried = self.mass.as_ref().map_or(table, |mass| times(&mass.relative, table));
+        [pull[0] - carried[0], pull[1] - carried[1]]
+    }
+
+    /// The acceleration that a force over `M1` gives.
+    #[inline(always)]
+    pub(super) fn moved(&self, force: [f64; 2]) -> [f64; 2] {
+        self.mass.as_ref().map_or(force, |mass| times(&mass.inverse, force))
+    }
+
+    /// The direction in which a block at rest leaves under a push that friction does not hold.
+    pub(super) fn departure(&self, push: [f64; 2], friction: f64) -> [f64; 2] {
+        let along = match &self.mass {
+            Some(mass) => mass.departure(push, friction).0,
+            None => push,
+        };
+        let size = norm(along);
+        along.map(|x| x / size)
+    }
+
+    /// Bounds on how much longer than a force over `M1` the acceleration is that it gives, and the other way.
+    pub(super) fn stretches(&self) -> [f64; 2] {
+        self.mass.as_ref().map_or([1.0; 2], |mass| [mass.compliance(), mass.inertia()])
     }
 
     /// `Φ_i` of a floor along an axis.
@@ -151,12 +291,17 @@ impl System {
         ((shear_n - self.damper_n_s_per_m * w) - springs) / self.block_kg
     }
 
-    /// The mass-normalised amplitudes of displacements or velocities of the floors.
+    /// The mass-normalised amplitudes of displacements or velocities of the floors; of oscillators those along
+    /// their directions are the second list.
     pub(super) fn amplitudes(&self, masses_kg: &[f64], of_floors: [&[f64]; 2]) -> Vec<f64> {
+        if !self.oscillators.is_empty() {
+            let own = of_floors[1].iter().copied().chain(core::iter::repeat(0.0));
+            return self.oscillators.iter().zip(own).map(|(per, d)| d / per).collect();
+        }
         let of_mode = |j: usize| {
             let axes = [0, 1].iter().map(|&k| {
                 let floors =
-                    (0..self.storeys).map(|i| self.floor(k, i)[j] * masses_kg[i] * of_floors[k][i]);
+                    (0..self.points).map(|i| self.floor(k, i)[j] * masses_kg[i] * of_floors[k][i]);
                 floors.sum::<f64>()
             });
             axes.sum()
@@ -207,8 +352,18 @@ impl State {
     pub(super) fn initial(system: &System, model: &Model) -> Self {
         let turned = along_y(model);
         let start = [model.initial(), turned.initial()];
-        let q = [model, &turned].map(Model::initial_storey_displacement_m);
-        let v = [model, &turned].map(Model::initial_storey_velocity_m_per_s);
+        let (q, v) = match model.structure() {
+            Some(_) => {
+                let own = turned.initial();
+                let given = [&own.storey_displacement_m, &own.storey_velocity_m_per_s];
+                let [q, v] = given.map(|list| [Vec::new(), list.clone().unwrap_or_default()]);
+                (q, v)
+            }
+            None => (
+                [model, &turned].map(Model::initial_storey_displacement_m),
+                [model, &turned].map(Model::initial_storey_velocity_m_per_s),
+            ),
+        };
         let masses_kg = &model.frame().masses_kg;
         Self {
             s: start.map(|start| start.sliding_displacement_m),
@@ -228,8 +383,8 @@ impl State {
 
 impl Loads {
     /// `p` from `P` at the start.
-    pub(super) fn push(&self, pull: [f64; 2]) -> [f64; 2] {
-        [pull[0] - self.table[0][0], pull[1] - self.table[1][0]]
+    pub(super) fn push(&self, system: &System, pull: [f64; 2]) -> [f64; 2] {
+        system.push(pull, [self.table[0][0], self.table[1][0]])
     }
 
     /// The same so much later.

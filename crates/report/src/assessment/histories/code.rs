@@ -112,7 +112,7 @@ impl HistoriesReport<'_> {
         let peak = model.shape().find(SHOWN[0])?.1;
         let runs = |bound: usize| model.governing(&peak, bound);
         type Value<'b> = Box<dyn Fn(&LateralForce, usize) -> f64 + 'b>;
-        let rows: [(String, Value<'_>); 8] = [
+        let mut rows: Vec<(String, Value<'_>)> = vec![
             (
                 stiffness.label("Effective stiffness k_M"),
                 Box::new(|found, _| stiffness.of(found.stiffness_n_per_m)),
@@ -140,6 +140,10 @@ impl HistoriesReport<'_> {
             ),
             ("  over D_M".to_owned(), Box::new(|found, bound| runs(bound) / found.displacement_m)),
         ];
+        if let Some(gap_m) = model.gap_m {
+            let share = move |found: &LateralForce, _| 100.0 * total * found.displacement_m / gap_m;
+            rows.insert(6, ("  of the gap (%)".to_owned(), Box::new(share)));
+        }
         let heads = model.bounds.iter().map(|bound| bound.name.to_owned());
         let heads = core::iter::once(String::new()).chain(heads).collect();
         let row = |(name, value): &(String, Value<'_>)| {
@@ -189,18 +193,41 @@ fn capacities(model: &ModelHistories) -> Vec<Capacity> {
     all
 }
 
+/// That the products stay within the code's limits on them, where none were given.
+pub(super) fn limits_not_reached(factors: PropertyFactors) -> Option<String> {
+    let [[lower, upper], [least, most]] = [factors.products(), PropertyFactors::CODE_LIMITS];
+    let within = factors.limits.is_none() && (lower > least || upper < most);
+    within.then(|| {
+        format!(
+            "The products of property modification factors, {} and {}, are within the limits of ASCE/SEI 7, \
+             section 17.2.8.4 (at most {}, at least {}), which are not applied: limits = {least}..{most} \
+             among the factors applies them.",
+            cell(lower),
+            cell(upper),
+            cell(least),
+            cell(most)
+        )
+    })
+}
+
 /// Property modification factors and their products.
 pub(super) fn factor_table(factors: &PropertyFactors) -> Table {
     let bounds = factors.bounds();
+    let [least, most] = factors.products();
     let row =
         |(name, [least, most]): (&str, [f64; 2])| vec![name.to_owned(), cell(least), cell(most)];
     let rows = [
         ("λ_test: heating, speed, cycling", factors.test),
         ("λ_ae: aging and environment", factors.aging),
         ("λ_spec: tolerance of the specification", factors.specification),
-        ("λ on friction, with 0.75 of aging", [bounds.lower, bounds.upper]),
+        ("λ on friction, with 0.75 of aging", [least, most]),
     ];
+    let limited = factors.limits.map(|limits| {
+        let [least, most] = limits.map(cell);
+        (format!("λ at most {least}, at least {most}: as run"), [bounds.lower, bounds.upper])
+    });
     let heads = ["", "Least", "Largest"].map(str::to_owned).to_vec();
-    let rows = core::iter::once(heads).chain(rows.into_iter().map(row)).collect();
+    let limited = limited.iter().map(|(name, factors)| row((name, *factors)));
+    let rows = core::iter::once(heads).chain(rows.into_iter().map(row)).chain(limited).collect();
     ("Property modification factors".to_owned(), rows)
 }

@@ -209,14 +209,14 @@ impl Driver<'_> {
                             || left_s < 1e-14
                             || r < 1e-14)
                     {
-                        state.lose_speed();
+                        state.lose_speed(frame);
                         let part = stretch.part(t, left_s);
                         let step = self.stepper.solve(state, part, false).unwrap();
                         step.at_point(POINTS - 1, state);
                         return;
                     }
                     if !stops && t + step_s == t {
-                        state.lose_speed();
+                        state.lose_speed(frame);
                         continue;
                     }
                 }
@@ -240,7 +240,7 @@ impl Driver<'_> {
                 norm(state.speed()),
                 stretch.from_s + t
             );
-            state.lose_speed();
+            state.lose_speed(frame);
         }
     }
 }

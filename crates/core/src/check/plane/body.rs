@@ -1,0 +1,224 @@
+//! What moves with the block in a plane: a mass in every direction, which may join x and y, and the oscillators that
+//! the modes of a structure are.
+//!
+//! With `A` over a mass, `push = (forces − A a)` over it and `u = w/|w|`:
+//!
+//! ```text
+//! stick  |push| ≤ μ_s N/M1        slip  A ẇ = push − f u
+//! ```
+
+use super::frame::{Pair, cross, dot, norm, times, unit};
+use crate::model::Structure;
+
+/// Part of a radian by which a way to rest is followed.
+const STEP: f64 = 0.02;
+/// Part of the speed to which its time is told.
+const FOLLOWED: f64 = 1e-10;
+const MOST_STEPS: usize = 40_000;
+
+/// `A` over the mass of the block, and its inverse.
+#[derive(Clone, Copy)]
+pub(super) struct Body {
+    rows: [Pair; 2],
+    inverse: [Pair; 2],
+    /// Whether it is the identity.
+    is_one: bool,
+}
+
+fn product(rows: &[Pair; 2], x: Pair) -> Pair {
+    [dot(rows[0], x), dot(rows[1], x)]
+}
+
+/// The larger eigenvalue of a symmetric matrix.
+fn larger_eigenvalue(&[[a, b], [_, d]]: &[Pair; 2]) -> f64 {
+    0.5 * (a + d) + libm::hypot(0.5 * (a - d), b)
+}
+
+impl Body {
+    /// One mass.
+    pub(super) const ONE: Self =
+        Self { rows: [[1.0, 0.0], [0.0, 1.0]], inverse: [[1.0, 0.0], [0.0, 1.0]], is_one: true };
+
+    pub(super) fn new(rows: [Pair; 2]) -> Self {
+        let [[a, b], [c, d]] = rows;
+        let determinant = cross(rows[0], rows[1]);
+        let inverse = [[d, -b], [-c, a]].map(|row| times(row, 1.0 / determinant));
+        Self { rows, inverse, is_one: false }
+    }
+
+    pub(super) fn is_one(&self) -> bool {
+        self.is_one
+    }
+
+    /// `A x`.
+    pub(super) fn carried(&self, x: Pair) -> Pair {
+        if self.is_one { x } else { product(&self.rows, x) }
+    }
+
+    /// `A⁻¹ x`.
+    pub(super) fn moved(&self, x: Pair) -> Pair {
+        if self.is_one { x } else { product(&self.inverse, x) }
+    }
+
+    /// Largest eigenvalue of `A⁻¹`.
+    pub(super) fn most_compliant(&self) -> f64 {
+        if self.is_one { 1.0 } else { larger_eigenvalue(&self.inverse) }
+    }
+
+    /// The direction in which a slip begins under a push: `(ρ A + f) u = push` for one ρ ≥ 0, by Newton's method on
+    /// `1/|u| = 1`, which is concave in ρ.
+    pub(super) fn departure(&self, push: Pair, slowing: f64) -> Option<Pair> {
+        if self.is_one || norm(push) <= slowing {
+            return unit(push);
+        }
+        if slowing == 0.0 {
+            return unit(self.moved(push));
+        }
+        let mut rho = 0.0;
+        let mut u = push;
+        for _ in 0..100 {
+            let [[a, b], [c, d]] = self.rows;
+            let shifted = Self::new([[rho * a + slowing, rho * b], [rho * c, rho * d + slowing]]);
+            u = product(&shifted.inverse, push);
+            // d|u|/dρ = −u·(ρA + f)⁻¹A u/|u|
+            let size = norm(u);
+            let slope = dot(u, product(&shifted.inverse, self.carried(u))) / size;
+            let step = size * (size - 1.0) / slope;
+            rho += step;
+            if step.abs() <= f64::EPSILON * rho {
+                break;
+            }
+        }
+        unit(u)
+    }
+
+    /// How a slip turns and slows down where the push lasts: rates of the angle and of `ln|w|` by `dτ = dt/|w|`.
+    fn rates(&self, angle: f64, push: Pair, slowing: f64) -> Pair {
+        let u = [libm::cos(angle), libm::sin(angle)];
+        let rate = self.moved([push[0] - slowing * u[0], push[1] - slowing * u[1]]);
+        [cross(u, rate), dot(u, rate)]
+    }
+
+    /// How long a slip lasts under a push that does, `|push| < f`, and its last direction; the time is a bound where
+    /// the way is longer than asked for.
+    pub(super) fn to_rest(
+        &self,
+        w: Pair,
+        push: Pair,
+        slowing: f64,
+        longest_m: f64,
+    ) -> Option<(f64, Option<Pair>)> {
+        let (r, p) = (norm(w), norm(push));
+        if !(p < slowing) {
+            return None;
+        }
+        let bound_s = larger_eigenvalue(&self.rows) * r / (slowing - p);
+        if r * bound_s > 1e3 * longest_m {
+            return Some((bound_s, None));
+        }
+        // Heun's method of third order.
+        let scale = self.most_compliant() * (slowing + p);
+        let step = STEP / scale;
+        let (mut angle, mut left, mut time_s) = (libm::atan2(w[1], w[0]), 1.0_f64, 0.0);
+        for _ in 0..MOST_STEPS {
+            let a = self.rates(angle, push, slowing);
+            if left < FOLLOWED {
+                if let Some(found) = self.end_of_turn((angle, a[0]), push, slowing, scale) {
+                    angle = found;
+                    break;
+                }
+            }
+            let b = self.rates(angle + step / 3.0 * a[0], push, slowing);
+            let c = self.rates(angle + 2.0 * step / 3.0 * b[0], push, slowing);
+            let next = left * libm::exp(0.25 * step * (a[1] + 3.0 * c[1]));
+            // ∫ left dτ by the mean of an exponential.
+            let fall = libm::log(left / next);
+            time_s += step * if fall.abs() > 1e-9 { (left - next) / fall } else { left };
+            angle += 0.25 * step * (a[0] + 3.0 * c[0]);
+            left = next.max(f64::MIN_POSITIVE);
+        }
+        let last = [libm::cos(angle), libm::sin(angle)];
+        Some((r * time_s, Some(last)))
+    }
+
+    /// The angle at which a slip turns no more, by Newton's method where it hardly does, if it is drawn there.
+    fn end_of_turn(
+        &self,
+        (mut angle, turn): (f64, f64),
+        push: Pair,
+        slowing: f64,
+        scale: f64,
+    ) -> Option<f64> {
+        if !(turn.abs() < 1e-3 * scale) {
+            return None;
+        }
+        for _ in 0..6 {
+            let u = [libm::cos(angle), libm::sin(angle)];
+            let across = [-u[1], u[0]];
+            let rate = self.moved([push[0] - slowing * u[0], push[1] - slowing * u[1]]);
+            let slope = cross(across, rate) - slowing * cross(u, self.moved(across));
+            if !(slope < 0.0) {
+                return None;
+            }
+            angle -= cross(u, rate) / slope;
+        }
+        Some(angle)
+    }
+}
+
+/// An oscillator on the block.
+pub(super) struct Part {
+    pub(super) mass_kg: f64,
+    pub(super) along: Pair,
+    pub(super) frequency: f64,
+    pub(super) damping_ratio: f64,
+}
+
+/// Those that the modes of a structure are: `d = η/|L|`, so that `d̈ + 2ξω ḋ + ω² d = −(L/|L|)·(s̈ + a)`.
+pub(super) fn parts_of(structure: &Structure) -> Vec<Part> {
+    let taking_part = structure.in_plane.iter().filter_map(|mode| {
+        let along = unit(mode.participation)?;
+        Some(Part {
+            mass_kg: dot(mode.participation, mode.participation),
+            along,
+            frequency: mode.frequency_rad_per_s,
+            damping_ratio: mode.damping_ratio,
+        })
+    });
+    taking_part.collect()
+}
+
+/// How a point moves with the oscillators, `Σ φ|L| d`, and with the block, `b − Σ φ L·b`.
+pub(super) struct PointOfModes {
+    of_parts: Vec<Pair>,
+    with_block: [Pair; 2],
+}
+
+impl PointOfModes {
+    pub(super) fn all(structure: &Structure) -> Vec<Self> {
+        let of = |i: usize| {
+            let taking_part = || structure.in_plane.iter().filter(|m| norm(m.participation) > 0.0);
+            let rest = |axis: usize, by: usize| {
+                let whole = if axis == by { 1.0 } else { 0.0 };
+                let given = taking_part().map(|mode| mode.points[i][axis] * mode.participation[by]);
+                whole - given.sum::<f64>()
+            };
+            Self {
+                of_parts: taking_part()
+                    .map(|mode| times(mode.points[i], norm(mode.participation)))
+                    .collect(),
+                with_block: [[rest(0, 0), rest(0, 1)], [rest(1, 0), rest(1, 1)]],
+            }
+        };
+        (0..structure.points.len()).map(of).collect()
+    }
+
+    /// Of the oscillators' displacements or accelerations, and the block's acceleration.
+    pub(super) fn vector(&self, of_part: impl Fn(usize) -> f64, block: Pair) -> Pair {
+        let start = product(&self.with_block, block);
+        self.of_parts.iter().enumerate().fold(start, |[x, y], (j, factors)| {
+            let value = of_part(j);
+            [x + factors[0] * value, y + factors[1] * value]
+        })
+    }
+}
