@@ -1,9 +1,11 @@
 //! Solves the equations of motion: exactly, or by the paper's stepwise program.
 
+mod chords;
 mod course;
 mod dense;
 mod direct;
 mod ground;
+mod instructions;
 mod modal;
 mod outputs;
 mod phase;
@@ -15,7 +17,7 @@ mod stepwise;
 mod summary;
 mod tables;
 mod walk;
-mod workspace;
+mod windows;
 
 use crate::error::SolveError;
 use crate::model::Model;
@@ -24,9 +26,9 @@ use crate::progress::{GoOn, UNWATCHED};
 use crate::response::{Method, Response};
 
 pub use crate::linear::{FrameModes, shear_frame_modes};
-pub use prepared::{InstructionSet, Prepared, PreparedMotion};
+pub use instructions::InstructionSet;
+pub use prepared::{Prepared, PreparedMotion, Workspace};
 pub use walk::EVENTS_PER_INTERVAL_LIMIT;
-pub use workspace::Workspace;
 
 /// Exact response with its history.
 ///

@@ -1,6 +1,5 @@
 //! The motion by powers of the time: in stick, in slip, and in slip from rest.
 
-use super::start::Along;
 use super::system::{Loads, State, System, inner, norm};
 use super::terms::{LOW, NEGLIGIBLE, Scales, Sizes};
 use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, deflated, first_root, value};
@@ -102,6 +101,15 @@ pub(super) fn square(a: &Polynomial, k: usize) -> f64 {
     let sides = convolved(&a[..half], &a[k + 1 - half..=k]);
     let middle = if k.is_multiple_of(2) { a[k / 2] * a[k / 2] } else { 0.0 };
     2.0 * sides + middle
+}
+
+/// A start by components along and across `p` at its beginning.
+#[derive(Default)]
+pub(super) struct Along {
+    pub(super) axes: [[f64; 2]; 2],
+    pub(super) cosine: Polynomial,
+    pub(super) sine: Polynomial,
+    pub(super) w: [Polynomial; 2],
 }
 
 impl Series {

@@ -40,11 +40,9 @@ impl Plane<'_> {
     pub(super) fn distance(&self) -> Polynomial {
         let p = &self.series.friction;
         let [normal, rate] = self.series.loads.normal;
-        let change = self.system.static_per_kg * (rate * self.series.unit);
-        let holds = self.system.static_per_kg * normal;
+        let radius = self.system.hold.squared_radius([normal, rate * self.series.unit]);
         let mut distance = ZERO;
-        let bound = [holds * holds, 2.0 * holds * change, change * change];
-        distance[..3].copy_from_slice(&bound);
+        distance[..3].copy_from_slice(&radius);
         let last = DEGREE.min(2 * self.series.degree);
         for (k, distance) in distance[..=last].iter_mut().enumerate() {
             *distance -= square(&p[0], k) + square(&p[1], k);
@@ -63,7 +61,7 @@ impl Plane<'_> {
             let slider = springs * self.state.s[axis].abs();
             terms += (shear + slider) / system.block_kg + inertia * loads.table[axis][0].abs();
         }
-        let holds = system.static_per_kg * loads.normal[0];
+        let holds = system.hold.radius(loads.normal[0]);
         2.0 * ROUNDING * (holds * holds + norm(push).max(holds) * terms)
     }
 
