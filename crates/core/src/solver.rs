@@ -65,6 +65,18 @@ pub fn exact_demands(model: &Model, motion: &GroundMotion) -> Result<Response, S
     prepared::solve_once(model, motion, false, UNWATCHED)
 }
 
+/// [`exact_demands`] as long as `go_on` says so, which is asked every few milliseconds.
+///
+/// # Errors
+/// [`SolveError::Stopped`] where it says no, otherwise [`SolveError`] with time and cause.
+pub fn exact_demands_while(
+    model: &Model,
+    motion: &GroundMotion,
+    go_on: GoOn<'_>,
+) -> Result<Response, SolveError> {
+    prepared::solve_once(model, motion, false, go_on)
+}
+
 /// Response by the paper's own program (eqs 5, 6, 15–18), with history and iteration counts.
 ///
 /// The trapezoidal rule for velocity and displacement, iterated from the last accelerations until
