@@ -310,7 +310,7 @@ impl Request {
         }
         let models = Models::new(on.source, on.text, on.set, &varied, false)?;
         let models = if on.suite.in_plane() { models.in_plane() } else { models };
-        let (scaling, scaled) = self.scaling(None)?;
+        let (scaling, scaled) = self.scaling(None, &[])?;
         let demands: Vec<String> = self.listed("demand").into_iter().map(str::to_owned).collect();
         let request = DerivativeRequest {
             models: &models,

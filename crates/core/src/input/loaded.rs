@@ -176,7 +176,7 @@ impl Loaded {
     /// Its component along x as a channel of a record, in SI.
     #[must_use]
     pub fn as_channel(&self) -> Channel {
-        let Origin { event, station, component, azimuth_deg } = self.origin.clone();
+        let Origin { event, station, component, azimuth_deg, .. } = self.origin.clone();
         let uneven = || Sampling::Times(self.motion.times_s().to_vec());
         Channel {
             name: self.channel.clone(),
