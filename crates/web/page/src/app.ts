@@ -560,8 +560,10 @@ export class App {
       this.drawAnswer();
       this.updates++;
       if (this.updates === 1) performance.mark("first-picture");
-      if (this.answered) performance.mark("first-answer");
-      this.answered = false;
+      if (this.answered) {
+        performance.mark("first-answer");
+        this.answered = false;
+      }
     }
     if (news && this.judgement) this.drawJudgement(this.judgement);
   }
