@@ -144,6 +144,14 @@ impl System {
         sums
     }
 
+    /// The overturning moments along x and y without friction, of `P` and `g`; 0 where they are not asked for.
+    pub(super) fn moments(&self, pull: [f64; 2], g: &[f64]) -> [f64; 2] {
+        [0, 1].map(|axis| {
+            let of = self.overturning[axis].as_ref();
+            of.map_or(0.0, |(arm, block)| block * pull[axis] - dot(arm, g))
+        })
+    }
+
     /// `P` from the shear, `s`, `w` and `N s`, which is asked for of a pendulum.
     #[inline(always)]
     pub(super) fn pull(&self, shear_n: f64, s: f64, w: f64, pressed: f64) -> f64 {
