@@ -78,7 +78,7 @@ fn history(open: &OpenJob, file: &str) -> Result<String, Box<dyn Error>> {
     let along_y = along_y.map(|y| &y.sliding_displacement_m);
     let axes = core::iter::once(&history.sliding_displacement_m).chain(along_y);
     let bytes: Vec<u8> =
-        axes.flat_map(|s| rows.iter().flat_map(|&row| s[row].to_le_bytes())).collect();
+        axes.flat_map(|s| rows.iter().flat_map(move |&row| s[row].to_le_bytes())).collect();
     std::fs::write(file, &bytes)?;
     Ok(format!("{} {}", rows.len(), response.events.len()))
 }
