@@ -331,10 +331,15 @@ impl Series {
         }
     }
 
-    /// How much of the unit the last terms allow, and that the direction is that of `w` on all of it.
+    /// How much of the unit the last terms allow, and that the direction is that of `w` on all of it; NaN where
+    /// the terms are beyond all numbers, over a unit far too long.
     fn fit(&mut self, scales: &Scales) {
         let mut part = self.fitting_part(scales);
         if matches!(self.kind, Kind::Slip | Kind::Start) {
+            if !self.is_finite() {
+                self.part = f64::NAN;
+                return;
+            }
             // |w| > 0 on all of it.
             let order = self.speed.iter().position(|r| *r != 0.0).unwrap_or(0);
             let speed = deflated(&self.speed, order);
@@ -350,6 +355,13 @@ impl Series {
             }
         }
         self.part = part.min(1.0);
+    }
+
+    /// Whether no term has overflown: what has, does so in all orders that follow.
+    fn is_finite(&self) -> bool {
+        let lists = [&self.w, &self.direction, &self.friction];
+        let terms = lists.into_iter().flatten().map(|list| list[self.degree]);
+        terms.chain([self.speed[self.degree]]).sum::<f64>().is_finite()
     }
 
     /// Whether `u` is that of `w`.
