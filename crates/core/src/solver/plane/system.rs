@@ -200,7 +200,7 @@ impl System {
             stiffness_n_per_m: slider.stiffness_n_per_m,
             damper_n_s_per_m,
             per_radius: slider.per_radius,
-            static_per_kg: slider.fixed * per_kg,
+            hold: slider.hold.times(per_kg),
             kinetic_per_kg: slider.kinetic.times(per_kg),
             omega2,
             damping,
