@@ -176,7 +176,8 @@ impl Plane<'_> {
             peak = peak.max(speed);
             if is_least && speed <= REST * peak {
                 let loads = series.loads.after(series.unit * x);
-                let push = loads.push(&self.system, [0, 1].map(|axis| value(&series.pull[axis], x)));
+                let push =
+                    loads.push(&self.system, [0, 1].map(|axis| value(&series.pull[axis], x)));
                 if self.system.hold.excess(norm(push), loads.normal[0]) <= 0.0 {
                     return Some(x);
                 }
