@@ -438,7 +438,7 @@ fn exact_report_of_a_suite_says_what_it_is_of() {
     let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
     for said in [
         "Records Record Earthquake Station Component Azimuth Factor PGA, resultant (g) RSN1_A000 ",
-        "000, 090 0°, 90°",
+        "0, 90 0°, 90°",
         "0.75 to 1.25 T_M",
         "of the gap (%)",
         "λ at most 0.6000, at least 1.800: as run 0.6000 1.800",
@@ -446,7 +446,7 @@ fn exact_report_of_a_suite_says_what_it_is_of() {
         "Effective damping β_M (%)",
         "Displacement D_M (mm)",
         "over D_M",
-        "Demand and capacity Demand, maximum Friction Capacity Used (%) Runs beyond Gap (m)",
+        "Demand and capacity Demand, maximum Friction Capacity Used (%) Runs beyond Gap (mm)",
         "Total displacement D_TM = 1.360 D_M (mm)",
         "* governs: the bound of friction with the larger value, of each record and of all.",
     ] {

@@ -599,8 +599,9 @@ mod tests {
         assert!(!residual.events_change);
         let force = of(&run, 1, "peak_friction_force_n");
         assert!(
-            (force.derivative - 0.25 * G).abs() <= force.error
-                && force.error < 1e-6 * force.derivative
+            (force.derivative - 0.2 * G).abs() <= force.error
+                && force.error < 1e-6 * force.derivative,
+            "{force:?}"
         );
         // Neither mass nor static friction moves where the block ends.
         for key in [1, 2] {

@@ -206,13 +206,15 @@ pub fn noticed(analysis: &Analysis, loaded: &Loaded) -> Vec<Notice> {
 /// # Examples
 /// ```
 /// use slipstick::assessment::single::solve_all;
-/// use slipstick::{input, motion::GroundMotion, progress::UNWATCHED};
+/// use slipstick::{input, motion::GroundMotion};
+/// use std::ops::ControlFlow;
 ///
 /// let text = "[block]\nmass = \"1 t\"\n[slider]\nstatic_friction = 0.1\nkinetic_friction = 0.1\n\
 ///             bounds = { lower = 0.8, upper = 1.3 }";
 /// let analysis = input::parse("model.toml", text, &[])?;
 /// let motion = GroundMotion::evenly_spaced(0.5, vec![0.0, 3.0, 0.0], None)?;
-/// let [nominal, lower, upper] = &solve_all(&analysis, &motion, false, UNWATCHED)?[..] else { panic!() };
+/// let go_on = || ControlFlow::Continue(());
+/// let [nominal, lower, upper] = &solve_all(&analysis, &motion, false, &go_on)?[..] else { panic!() };
 /// let slid = |solved: &slipstick::assessment::single::Solved| solved.response.demands.sliding_path_m;
 /// assert!(slid(upper) < slid(nominal) && slid(nominal) < slid(lower));
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -156,6 +156,10 @@ pub fn first_root(c: &Polynomial, end: f64) -> Option<f64> {
     if start < 0.0 {
         return Some(0.0);
     }
+    // Terms beyond all numbers: no point is negative, and no part of [0, `end`] shows it.
+    if curvature.is_nan() {
+        return None;
+    }
     let search = Search { c, rise: rise(c), curvature, end };
     if last < 0.0 && search.falls([0.0, end], curvature) {
         return Some(search.bracketed([0.0, start], [end, last]));
@@ -184,7 +188,8 @@ impl Search<'_> {
     fn first(&self, [a, ga]: [f64; 2], [b, gb]: [f64; 2]) -> Option<f64> {
         let width = b - a;
         let curvature = if b == self.end { self.curvature } else { curvature_up_to(self.c, b) };
-        if ga.min(gb) > 0.125 * curvature * width * width {
+        // g ≥ min(g_a, g_b) − h²/8 max|g''| ≥ 0, equal where the polynomial is 0 throughout.
+        if ga.min(gb) >= 0.125 * curvature * width * width {
             return None;
         }
         let middle = a + 0.5 * width;
@@ -357,6 +362,16 @@ mod tests {
     }
 
     /// A dip within a billionth of the unit: a velocity that comes to a halt in a steep ramp of the motion.
+    /// Neither shows on any part that nothing is negative: halving all of them would take minutes.
+    #[test]
+    fn what_is_zero_throughout_or_no_number_has_no_root_at_once() {
+        for c in [ZERO, [f64::NAN; COEFFICIENTS]] {
+            for _ in 0..10_000 {
+                assert_eq!(first_root(&c, 1.0), None);
+            }
+        }
+    }
+
     #[test]
     fn exact_first_root_in_a_short_part() {
         for part in [1e-3, 1e-6, 1e-9, 1e-12] {

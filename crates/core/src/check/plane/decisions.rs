@@ -329,7 +329,7 @@ impl PlaneJudge<'_> {
         state
     }
 
-    /// Where the speed is least next to a point, and that speed: the zero of `w·ẇ = w·p − f |w|`. A least square
+    /// Where the speed is least next to a point, and that speed: the zero of `w·ẇ`, with `ẇ = p − f u` of one mass. A least square
     /// is found to half the digits, which in a pass through rest are all that the speed has.
     fn turn_of_speed(&self, step: &Step, point: usize) -> Option<(f64, f64)> {
         let gain = |part: f64| {
@@ -337,7 +337,10 @@ impl PlaneJudge<'_> {
             let loads = between(&step.stretch.loads, part);
             let (w, r) = (state.speed(), norm(state.speed()));
             let push = self.forces(&state, &loads).0.push;
-            (dot(w, push) - self.frame().slowing(&loads, r) * r, r)
+            let body = &self.frame().body;
+            // w·A⁻¹p − f w·A⁻¹u
+            let slowing = self.frame().slowing(&loads, r) * dot(w, body.moved(w)) / r;
+            (dot(w, body.moved(push)) - if r > 0.0 { slowing } else { 0.0 }, r)
         };
         let points = &self.stepper.rule.points;
         let mut low = points[point.saturating_sub(1)];
