@@ -147,11 +147,7 @@ fn figures(d: &Demands, root: &Demands) -> Vec<(String, f64, f64)> {
     for (point, whole) in of(d).iter().zip(of(root)) {
         let ratio = point.peak_drift_ratio.unwrap_or(0.0);
         all.extend([
-            (
-                "acceleration",
-                point.peak_acceleration_m_per_s2,
-                whole.peak_acceleration_m_per_s2,
-            ),
+            ("acceleration", point.peak_acceleration_m_per_s2, whole.peak_acceleration_m_per_s2),
             ("displacement", point.peak_displacement_m, whole.peak_displacement_m),
             ("drift", point.peak_drift_m, whole.peak_drift_m),
             ("drift ratio", ratio, whole.peak_drift_ratio.unwrap_or(1.0)),

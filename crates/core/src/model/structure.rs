@@ -235,8 +235,8 @@ impl Structure {
             "participations along y whose squares sum to at most the mass of the structure";
         let within = y <= self.mass_kg * (1.0 + ROUNDED_MASS);
         super::in_range("structure participation along y", expected, y, within)?;
-        let within = largest_mass_kg([[x, across], [across, y]])
-            <= self.mass_kg * (1.0 + ROUNDED_ACROSS);
+        let within =
+            largest_mass_kg([[x, across], [across, y]]) <= self.mass_kg * (1.0 + ROUNDED_ACROSS);
         super::in_range("structure participation across", ACROSS, across, within)?;
         for point in &self.points {
             super::optional_positive("structure point mass_kg", point.mass_kg)?;

@@ -101,8 +101,8 @@ impl HistoryAlongY {
     /// [`History::slider_force_n`].
     #[must_use]
     pub fn slider_force_n(&self, along_x: &History, model: &Model, knot: usize) -> [f64; 2] {
-        let block =
-            [&along_x.block_acceleration_m_per_s2, &self.block_acceleration_m_per_s2].map(|a| a[knot]);
+        let block = [&along_x.block_acceleration_m_per_s2, &self.block_acceleration_m_per_s2]
+            .map(|a| a[knot]);
         let Some(structure) = model.structure() else {
             let n = along_x.storeys;
             let own = &self.storey_acceleration_m_per_s2[knot * n..(knot + 1) * n];

@@ -36,11 +36,8 @@ fn larger_eigenvalue(&[[a, b], [_, d]]: &[Pair; 2]) -> f64 {
 
 impl Body {
     /// One mass.
-    pub(super) const ONE: Self = Self {
-        rows: [[1.0, 0.0], [0.0, 1.0]],
-        inverse: [[1.0, 0.0], [0.0, 1.0]],
-        is_one: true,
-    };
+    pub(super) const ONE: Self =
+        Self { rows: [[1.0, 0.0], [0.0, 1.0]], inverse: [[1.0, 0.0], [0.0, 1.0]], is_one: true };
 
     pub(super) fn new(rows: [Pair; 2]) -> Self {
         let [[a, b], [c, d]] = rows;
@@ -81,8 +78,7 @@ impl Body {
         let mut u = push;
         for _ in 0..100 {
             let [[a, b], [c, d]] = self.rows;
-            let shifted =
-                Self::new([[rho * a + slowing, rho * b], [rho * c, rho * d + slowing]]);
+            let shifted = Self::new([[rho * a + slowing, rho * b], [rho * c, rho * d + slowing]]);
             u = product(&shifted.inverse, push);
             // d|u|/dρ = −u·(ρA + f)⁻¹A u/|u|
             let size = norm(u);

@@ -13,8 +13,8 @@
 
 use super::super::ground::Load;
 use super::super::law::Law;
-use super::body::{Body, PointOfModes, parts_of};
 use super::super::structure::{Phase, StoreyDamping, Structure};
+use super::body::{Body, PointOfModes, parts_of};
 use crate::model::{Model, Structure as ByModes};
 
 /// A vector (x, y).

@@ -252,9 +252,7 @@ fn participations_of_other_signs_are_refused() {
 #[test]
 fn modes_along_x_alone_are_refused_in_two_directions() {
     let refused = |motion: &str, table: &str| {
-        let text = format!(
-            "{BLOCK}[structure]\nmass = \"100 t\"\nmodes = \"modes.csv\"\n{motion}"
-        );
+        let text = format!("{BLOCK}[structure]\nmass = \"100 t\"\nmodes = \"modes.csv\"\n{motion}");
         let modes = [Override::modes("modes.csv", table)];
         parse("m.toml", &text, &modes).map(|_| ()).map_err(|error| error.to_string())
     };

@@ -378,9 +378,8 @@ impl Peaks {
                 let Some((arm, along)) = &system.overturning[axis] else { continue };
                 let modes = combined(arm, &series.g, series.degree);
                 let mut steady = [ZERO; 2];
-                steady[axis] = core::array::from_fn(|k| {
-                    inner(*along, [block[0][k], block[1][k]]) - modes[k]
-                });
+                steady[axis] =
+                    core::array::from_fn(|k| inner(*along, [block[0][k], block[1][k]]) - modes[k]);
                 let moment = Composed { steady, of_friction: 0.0 };
                 self.look_at_moment(axis, &moment, series, None, to);
             }
@@ -508,9 +507,10 @@ impl Peaks {
             };
             raise(Output::Acceleration(i), &of);
         }
-        let moments = system.overturning.each_ref().map(|moment| {
-            moment.as_ref().map(|(arm, along)| (dot(arm, g), *along))
-        });
+        let moments = system
+            .overturning
+            .each_ref()
+            .map(|moment| moment.as_ref().map(|(arm, along)| (dot(arm, g), *along)));
         let of = |u: [f64; 2]| {
             let b = block(u);
             moments.map(|moment| moment.map_or(0.0, |(modes, along)| inner(along, b) - modes))

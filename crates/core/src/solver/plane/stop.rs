@@ -72,7 +72,8 @@ impl Instant {
         }
         let per_n = most / loads.normal[0];
         let of_friction = per_n * loads.normal[1].abs();
-        let rate = 2.0 * inertia * compliance * self.rate_of_push(system, state, loads, g) + of_friction;
+        let rate =
+            2.0 * inertia * compliance * self.rate_of_push(system, state, loads, g) + of_friction;
         (p + rate * longest_s < f).then_some(time_s.max(0.0))
     }
 
@@ -179,8 +180,8 @@ impl Arc {
         let values: Vec<f64> = (0..=LOOKS).map(|i| at(step * i as f64)).collect();
         let better = |best: usize, i: usize| if values[i] > values[best] { i } else { best };
         let best = (1..=LOOKS).fold(0, better);
-        let [mut low, mut high] = [best.saturating_sub(1), (best + 1).min(LOOKS)]
-            .map(|i| step * i as f64);
+        let [mut low, mut high] =
+            [best.saturating_sub(1), (best + 1).min(LOOKS)].map(|i| step * i as f64);
         let mut most = values[best];
         for _ in 0..60 {
             let [a, b] = [0.4, 0.6].map(|part| low + (high - low) * part);

@@ -134,10 +134,10 @@ impl System {
         let modes = structure.oscillators_in_plane();
         let n = structure.points.len();
         let sizes: Vec<f64> = modes.iter().map(|mode| mode.mass_kg.sqrt()).collect();
-        let of_modes = |of: &dyn Fn(&OscillatorInPlane) -> f64| -> Vec<f64> {
-            modes.iter().map(of).collect()
-        };
-        let participation = [0, 1].map(|k| of_modes(&|mode| mode.mass_kg.sqrt() * mode.direction[k]));
+        let of_modes =
+            |of: &dyn Fn(&OscillatorInPlane) -> f64| -> Vec<f64> { modes.iter().map(of).collect() };
+        let participation =
+            [0, 1].map(|k| of_modes(&|mode| mode.mass_kg.sqrt() * mode.direction[k]));
         let rows = |k: usize| -> Vec<Vec<f64>> {
             let shape = |i: usize| of_modes(&|mode| mode.points[i][k] / mode.mass_kg.sqrt());
             (0..n).map(shape).collect()

@@ -75,7 +75,9 @@ impl Sizes {
             }
             Kind::NearRest => pair(&series.root, self.of_velocity),
             // The speed spans many sizes: its own first term is what it is compared with.
-            Kind::Turning => over(series.speed[k].abs(), series.speed[0]).max(pair(&series.direction, 1.0)),
+            Kind::Turning => {
+                over(series.speed[k].abs(), series.speed[0]).max(pair(&series.direction, 1.0))
+            }
         };
         let at = k * series.modes..(k + 1) * series.modes;
         let of_modes = over(largest(&series.eta[at.clone()], 0.0), self.eta)
