@@ -10,12 +10,20 @@ from typing import Any
 
 import slipstick as ss
 import slipstick.dask
+from slipstick import _parts
 from slipstick._plot import Plotter
 
 PARTS: list[tuple[str, list[tuple[str, Any]]]] = [
     (
         "Models and motions",
-        [(f"slipstick.{name}", getattr(ss, name)) for name in ["Model", "Motion", "read_record", "read_suite"]],
+        [
+            (f"slipstick.{name}", getattr(ss, name))
+            for name in ["Model", "Motion", "read_record", "read_channels", "read_suite", "schema", "units"]
+        ],
+    ),
+    (
+        "Tables of a model",
+        [(f"slipstick.{name}", cls) for name, cls in vars(_parts).items() if name in ss.__all__],
     ),
     (
         "One analysis",
@@ -42,7 +50,7 @@ PARTS: list[tuple[str, list[tuple[str, Any]]]] = [
         "Suites of records",
         [
             (f"slipstick.{name}", getattr(ss, name))
-            for name in ["suite", "spectrum", "ida", "fragility", "design", "Assessment"]
+            for name in ["suite", "spectrum", "sensitivity", "ida", "fragility", "design", "Assessment", "Sensitivity"]
         ],
     ),
     (
@@ -156,7 +164,7 @@ def members(cls: type) -> Iterator[str]:
     names = [name for name in dict.fromkeys(n for c in reversed(cls.__mro__) for n in vars(c))]
     public = [name for name in names if not name.startswith("_") or (name == "__call__" and cls is Plotter)]
     values, methods = [], []
-    inherited = set(dir(tuple)) | set(dir(Exception))
+    inherited = set(dir(tuple)) | set(dir(Exception)) | set(dir(dict))
     for name in public:
         value = inspect.getattr_static(cls, name)
         if name in inherited or name in getattr(cls, "_fields", ()):
@@ -185,7 +193,7 @@ def members(cls: type) -> Iterator[str]:
 def entry(name: str, value: Any) -> Iterator[str]:
     is_error = inspect.isclass(value) and issubclass(value, Exception)
     given = "" if is_error or value is Plotter or hasattr(value, "_fields") else signature(value)
-    made = {"Response", "Assessment", "Comparison", "Identified", "Events", "Regularisation", "Attempt"}
+    made = {"Response", "Assessment", "Sensitivity", "Comparison", "Identified", "Events", "Regularisation", "Attempt"}
     if inspect.isclass(value) and value.__name__ in made:
         given = ""
     yield f"### `{name}{given}`\n\n{markdown(inspect.getdoc(value) or '')}"

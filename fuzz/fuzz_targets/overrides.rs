@@ -4,7 +4,7 @@
 use libfuzzer_sys::fuzz_target;
 use slipstick::input::{self, Override};
 
-const MODEL: &str = include_str!("../../crates/cli/models/frame.toml");
+const MODEL: &str = include_str!("../../crates/report/models/frame.toml");
 
 fuzz_target!(|text: &str| {
     let overrides: Vec<Override> = text.lines().filter_map(|l| Override::parse(l).ok()).collect();

@@ -225,7 +225,7 @@ def per_cent(fraction):
     return "" if fraction is None else f"{100.0 * abs(fraction):.1e}"
 
 
-def table(rows, parts, device_rows, machine):
+def table(rows, parts, scripts, machine):
     """Markdown: one table a case, and what an event and a set-up cost."""
     lines = [
         "<!-- Written by `cargo xtask bench-peers --write`. -->",
@@ -257,7 +257,7 @@ def table(rows, parts, device_rows, machine):
     for part in parts:
         cells = part["case"], quantity(part["event_seconds"]), quantity(part["setup_seconds"])
         lines.append("| " + " | ".join(cells) + " |")
-    lines += devices.table(device_rows, quantity, per_cent)
+    lines += devices.table(*scripts, quantity, per_cent)
     return "\n".join(lines) + "\n"
 
 
@@ -283,11 +283,11 @@ def main():
     rows += suite(helpers, ops, options.folder, min(rounds, 3), options.quick)
     parts = [pieces(case, helpers["slipstick"], rounds)
              for case in cases.named_cases() if case.name in ("A", "B", "F")]
-    device_rows = devices.measured(options.device_helper, options.folder, options.quick)
+    scripts = devices.measured(options.device_helper, options.folder, options.quick)
     where = machine("openseespy", "pyslammer", "numba", "scipy")
-    result = {"machine": where, "rows": rows, "pieces": parts, "devices": device_rows}
+    result = {"machine": where, "rows": rows, "pieces": parts, "devices": scripts[0], "plane": scripts[1]}
     (options.folder / "peers.json").write_text(json.dumps(result, indent=1, default=float) + "\n")
-    (options.folder / "peers.md").write_text(table(rows, parts, device_rows, where))
+    (options.folder / "peers.md").write_text(table(rows, parts, scripts, where))
 
 
 main()

@@ -1,7 +1,8 @@
-"""Sliders with devices in OpenSeesPy, by the scripts that Slipstick writes, beside the exact answer.
+"""Sliders with devices, and in two directions, in OpenSeesPy, by the scripts that Slipstick writes, beside
+the exact answer.
 
 The scripts run as they are, with stick as springs of several stiffnesses and with the samples as they are
-and cut in five. Times are the least of several runs.
+and cut in parts. Times are the least of several runs.
 """
 
 import time
@@ -16,10 +17,11 @@ BLOCK_KG, FLOOR_KG = 325.0, 201.0
 #: Sliding displacements over which friction builds up, with parts into which a sample is cut.
 TRIALS = [(1e-3, 1), (1e-4, 1), (1e-5, 1), (1e-5, 5), (1e-6, 1), (1e-6, 5)]
 
-STRUCTURE = """
+BLOCK = """
 [block]
 mass = "325 kg"
-
+"""
+STRUCTURE = BLOCK + """
 [[storey]]
 mass = "201 kg"
 frequency = "2.15 Hz"
@@ -93,11 +95,32 @@ DEVICES = [
     ("contents on the floor", "`ElasticPP` twice", 0.05, PENDULUM + CONTENTS, ""),
 ]
 
+#: The same in two directions: steps of 10 ms and of 1 ms.
+TRIALS_IN_PLANE = [(1e-4, 1), (1e-5, 1), (1e-5, 10)]
+STIFFER_ALONG_Y = 'frequency_y = "3 Hz"\n'
+ALONG_Y = 'record_y = "{records}/taft-021.txt"'
+
+#: Title, what OpenSees calls it, weight that presses, friction that builds up first, model.
+PLANE = [
+    ("rigid block, pendulum 2 m", "`Coulomb` in `singleFPBearing`",
+     BLOCK_KG * GRAVITY, 0.05, BLOCK + PENDULUM),
+    ("a storey that is stiffer along y, pendulum 2 m", "`Coulomb` in `singleFPBearing`",
+     (BLOCK_KG + FLOOR_KG) * GRAVITY, 0.05, STRUCTURE + STIFFER_ALONG_Y + PENDULUM),
+    ("the same, friction by speed, exponential", "`VelDependent` in `singleFPBearing`",
+     (BLOCK_KG + FLOOR_KG) * GRAVITY, 0.03, STRUCTURE + STIFFER_ALONG_Y + EXPONENTIAL),
+]
+
 
 def model(text, more):
     records = ROOT / "examples" / "records"
     motion = f'[motion]\nrecord = "{records}/taft-111.txt"\nunits = "g"\ndt = "0.01 s"\nscale_to = "0.3 g"\n'
-    return STRUCTURE + text + motion + more.format(records=records) + "\n"
+    return text + motion + more.format(records=records) + "\n"
+
+
+def as_numbers(sliding):
+    """Displacements at the samples, those in two directions as x + iy."""
+    sliding = np.array(sliding)
+    return sliding if sliding.ndim == 1 else sliding[:, 0] + 1j * sliding[:, 1]
 
 
 def attempt(script, parts):
@@ -109,29 +132,29 @@ def attempt(script, parts):
         _, sliding = names["analyse"](parts=parts)
     except ArithmeticError as error:
         return None, str(error)
-    return np.array(sliding), time.process_time() - start
+    return as_numbers(sliding), time.process_time() - start
 
 
-def measure(device, helper, folder, rounds):
+def measure(title, element, friction_n, text, trials, helper, folder, rounds):
     """Slipstick's row, then one for each stiffness and number of parts."""
-    title, element, friction, text, more = device
     file = folder / "device.toml"
-    file.write_text(model(text, more))
+    file.write_text(text)
     helper.ask("load", file)
     samples, events = map(int, helper.ask("history", folder / "exact.bin"))
     exact = np.fromfile(folder / "exact.bin", "<f8")
+    if len(exact) > samples:
+        exact = as_numbers(exact.reshape(2, -1).T)
     peak = np.abs(exact).max()
-    weight = (BLOCK_KG + FLOOR_KG) * GRAVITY
     times = {"slipstick": []}
     answers = {}
     for turn in range(rounds):
         times["slipstick"] += [int(ns) * 1e-9 for ns in helper.ask("time", 20)]
-        for key in TRIALS:
+        for key in trials:
             if isinstance(answers.get(key), str):
                 continue
             yield_m, parts = key
             script = folder / "device.py"
-            helper.ask("script", repr(friction * weight / yield_m), script)
+            helper.ask("script", repr(friction_n / yield_m), script)
             answer, seconds = attempt(script.read_text(), parts)
             answers[key] = seconds if answer is None else answer
             if answer is not None:
@@ -150,24 +173,30 @@ def measure(device, helper, folder, rounds):
         rows.append({
             **row, "seconds": least, "times_slipstick": least / own,
             "peak_error": np.abs(answer).max() / peak - 1.0,
-            "residual_error": (answer[-1] - exact[-1]) / peak,
+            "residual_error": abs(answer[-1] - exact[-1]) / peak,
             "history_error": np.abs(answer - exact).max() / peak,
         })
     return rows
 
 
 def measured(program, folder, quick):
-    """Rows of all devices."""
-    helper = Process(program)
-    rows = []
-    for device in DEVICES:
-        note(f"device: {device[0]}")
-        rows += measure(device, helper, folder, 1 if quick else 3)
-    return rows
+    """Rows of all devices, and of all cases in two directions."""
+    helper, rounds = Process(program), 1 if quick else 3
+    devices, plane = [], []
+    weight_n = (BLOCK_KG + FLOOR_KG) * GRAVITY
+    for title, element, friction, text, more in DEVICES:
+        note(f"device: {title}")
+        text = model(STRUCTURE + text, more)
+        devices += measure(title, element, friction * weight_n, text, TRIALS, helper, folder, rounds)
+    for title, element, weight_n, friction, text in PLANE:
+        note(f"two directions: {title}")
+        text = model(text, ALONG_Y)
+        plane += measure(title, element, friction * weight_n, text, TRIALS_IN_PLANE, helper, folder, rounds)
+    return devices, plane
 
 
-def table(rows, quantity, per_cent):
-    """Markdown: one table a device."""
+def table(devices, plane, quantity, per_cent):
+    """Markdown: one table a device, one a case in two directions."""
     lines = [
         "",
         "### Devices",
@@ -175,6 +204,20 @@ def table(rows, quantity, per_cent):
         "The Taft record at 0.3 g on a storey of 2.15 Hz, and the script that Slipstick writes of each model for",
         "OpenSees, with stick as springs that yield at several displacements and each sample in one step or in five.",
     ]
+    lines += tables(devices, quantity, per_cent)
+    lines += [
+        "",
+        "### Two directions",
+        "",
+        "Both components of the Taft record, the larger at 0.3 g, and the script that Slipstick writes for OpenSees: stick",
+        "as a spring that yields at 0.1 mm and at 10 µm, steps of 10 ms and of 1 ms. Errors are lengths of vectors.",
+    ]
+    return lines + tables(plane, quantity, per_cent)
+
+
+def tables(rows, quantity, per_cent):
+    """One table a model."""
+    lines = []
     for device in dict.fromkeys(row["device"] for row in rows):
         first, *others = [row for row in rows if row["device"] == device]
         lines += [
@@ -187,7 +230,7 @@ def table(rows, quantity, per_cent):
         ]
         for row in others:
             yield_m = f"{row['yield_m']:.0e}".replace("e-0", "e-")
-            label = f"OpenSeesPy, yield {yield_m} m" + (", dt/5" if row["parts"] == 5 else "")
+            label = f"OpenSeesPy, yield {yield_m} m" + (f", dt/{row['parts']}" if row["parts"] > 1 else "")
             if "failure" in row:
                 lines.append(f"| {label} | – | – | {row['failure']} | | |")
                 continue

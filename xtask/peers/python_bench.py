@@ -88,6 +88,21 @@ def single(helper, model_path, turns):
     return best
 
 
+def light(helper, model_path, turns):
+    """Seconds of the solver alone in a Rust program, and of a call here without history and check."""
+    values = tomllib.loads(model_path.read_text(encoding="utf-8"))
+    del values["slider"]["bounds"]
+    alone, motion = ss.Model(values), ss.run(ss.Model.read(model_path)).motion
+    best = [float("inf")] * 2
+    for _ in range(turns):
+        best[0] = min(best[0], 1e-9 * min(map(int, helper.ask("demands 50"))))
+        for _ in range(50):
+            start = time.perf_counter()
+            ss.run(alone, motion, history=False, check=False)
+            best[1] = min(best[1], time.perf_counter() - start)
+    return best
+
+
 def many(program, folder, examples, count, turns):
     """Seconds of a study by the command and here, and of its table in pandas."""
     shutil.copy(examples / "studies" / "tank.toml", folder / "tank.toml")
@@ -105,7 +120,16 @@ def many(program, folder, examples, count, turns):
         shutil.rmtree(out, ignore_errors=True)
         package.study = ss.study(plan, out)
 
-    times = least(turns, command, package)
+    package()
+    drawn = package.study.table
+    paths = {name: drawn[name] for name in ("slider.kinetic_friction", "slider.static_friction")}
+    model = ss.Model.read(folder / "tank.toml")
+    motion = ss.run(model).motion
+
+    def arrays():
+        ss.demands(model, motion, paths)
+
+    times = least(turns, command, package, arrays)
     table = package.study.table
     assert len(table) == count and package.study.failures == 0
     return [*times, *least(max(turns, 5), lambda: pandas.DataFrame.from_arrow(table))]
@@ -165,12 +189,15 @@ def markdown(result):
         row("`run` of the whole `examples/taft.toml`: lower, nominal and upper friction",
             f"{1e3 * r['run_s']:.2f} ms", ""),
         row("the same in a Rust program", f"{1e3 * r['rust_s']:.2f} ms", ""),
+        row("`run(history=False, check=False)` of it without `slider.bounds`, over the solver alone in a Rust program "
+            f"({1e6 * r['solver_s']:.1f} µs)", f"{r['light_s'] / r['solver_s']:.2f} ×", "1.3 ×"),
         row("`import slipstick`, NumPy loaded", f"{1e3 * r['import_s']:.1f} ms", "20 ms"),
         row(
             f"{r['runs']} runs over the command ({r['command_s']:.2f} s)",
             f"{r['study_s'] / r['command_s']:.3f} ×",
             "1.05 ×",
         ),
+        row("the same designs by `demands`, over the command", f"{r['demands_s'] / r['command_s']:.3f} ×", "1.05 ×"),
         row("their table in pandas", f"{1e3 * r['pandas_s']:.0f} ms", "100 ms"),
         row("wheel", f"{r['wheel_bytes'] / 1e6:.1f} MB", "5 MB"),
         row("`LocalCluster`, 1 worker of one thread over none",
@@ -210,8 +237,9 @@ def main():
     note("one analysis")
     helper = Process([options.helper, str(model)])
     rust_s, run_s, beyond_s = single(helper, model, 10 * turns)
+    solver_s, light_s = light(helper, model, 10 * turns)
     note("a study")
-    command_s, study_s, pandas_s = many(options.slipstick, options.folder, options.examples, count, turns)
+    command_s, study_s, demands_s, pandas_s = many(options.slipstick, options.folder, options.examples, count, turns)
     note("a cluster")
     cluster_s = cluster(options.folder, options.examples, count, min(turns, 3))
     load = Path("/proc/loadavg")
@@ -227,6 +255,9 @@ def main():
         "runs": count,
         "command_s": command_s,
         "study_s": study_s,
+        "demands_s": demands_s,
+        "solver_s": solver_s,
+        "light_s": light_s,
         "pandas_s": pandas_s,
         "cluster_s": {str(workers): seconds for workers, seconds in cluster_s.items()},
         "wheel_bytes": options.wheel.stat().st_size,

@@ -46,6 +46,8 @@ Usage: cargo xtask TASK
                                  and a cluster of Dask (--write: into book/src/generated/python.md)
   python-docs [--write]          compares the book's reference of the Python package with its
                                  docstrings (--write: writes it; needs python3)
+  notebooks                      runs the notebooks of the examples and writes them as pages of the
+                                 book, with their figures (needs python3)
   python-free-threaded           builds the Python package for a free-threaded Python and runs its
                                  tests there (needs python3.14t)
   readers                        reads the parts of a study in pandas, Polars and DuckDB
@@ -81,6 +83,7 @@ fn main() -> ExitCode {
         ["bench-study", options @ ..] => peers::bench_study(options),
         ["bench-python", options @ ..] => peers::bench_python(options),
         ["python-docs", options @ ..] => python::docs(options),
+        ["notebooks"] => python::notebooks(),
         ["python-free-threaded"] => python::free_threaded(),
         ["readers"] => peers::readers(),
         ["bench-records", options @ ..] => peers::bench_records(options),

@@ -86,6 +86,13 @@ pub fn docs(options: &[&str]) -> Outcome {
     package.reference(write)
 }
 
+/// `cargo xtask notebooks`: the notebooks of the examples as they ran, as pages of the book with their figures.
+pub fn notebooks() -> Outcome {
+    let package = Package::environment()?;
+    package.build("dev")?;
+    shell::run(package.command("").arg(format!("{PACKAGE}/notebooks.py")))
+}
+
 /// `cargo xtask python-free-threaded`: builds the package for a free-threaded Python, of which PyO3 serves
 /// 3.14 and later, and runs its tests there, without the lock.
 pub fn free_threaded() -> Outcome {

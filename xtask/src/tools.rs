@@ -1,7 +1,7 @@
 //! Small tasks. Those that need a tool beyond cargo and rustup install it.
 
 use crate::shell::{self, Outcome};
-use crate::{console, paper};
+use crate::{console, paper, python};
 use std::fs;
 use std::path::Path;
 
@@ -21,6 +21,7 @@ pub fn deny() -> Outcome {
 pub fn book() -> Outcome {
     shell::ensure_installed("mdbook", "--version", "mdbook")?;
     figures()?;
+    python::notebooks()?;
     shell::run(shell::command("mdbook").args(["build", "book"]))
 }
 
@@ -102,7 +103,7 @@ fn seed(target: &str) -> Outcome {
         return fs::write(&path, OVERRIDES).map_err(|error| failed(&path, error));
     }
     let sources: &[&str] = match target {
-        "model" => &["crates/cli/models", "examples"],
+        "model" => &["crates/report/models", "examples"],
         "plan" => &["examples/studies"],
         // Edits of plans that are part of the target.
         "plan_edited" => &[],

@@ -120,6 +120,9 @@ pub enum Command {
     /// Compute sliding spectra over a suite of records, or response over excitation frequency
     #[command(after_help = assessment::SPECTRUM_EXAMPLES)]
     Spectrum(AssessArgs<{ Kind::Spectrum as usize }>),
+    /// Compute how much each key of a model changes each demand, with its error
+    #[command(after_help = assessment::SENSITIVITY_EXAMPLES)]
+    Sensitivity(AssessArgs<{ Kind::Sensitivity as usize }>),
     /// Raise the intensity of every record of a suite until a demand reaches its limit
     #[command(after_help = assessment::IDA_EXAMPLES)]
     Ida(AssessArgs<{ Kind::Ida as usize }>),

@@ -99,6 +99,7 @@ fn run() -> Result<ExitCode, Failure> {
         Command::Run(args) => commands::run::run(args),
         Command::Compare(args) => commands::compare::compare(args),
         Command::Spectrum(args) => commands::assess::assess(args),
+        Command::Sensitivity(args) => commands::assess::assess(args),
         Command::Ida(args) => commands::assess::assess(args),
         Command::Fragility(args) => commands::assess::fragility(args),
         Command::Design(args) => commands::assess::assess(args),

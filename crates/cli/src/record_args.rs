@@ -3,6 +3,7 @@
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
+use slipstick::motion::USUAL_PERIODS;
 use slipstick_report::DisplayUnits;
 
 use crate::args::{RecordArgs, unit_systems};
@@ -105,13 +106,13 @@ pub struct SpectrumArgs {
     #[arg(long, value_name = "TIME", conflicts_with_all = ["from", "to", "count"])]
     pub period: Vec<String>,
     /// Shortest of periods that are evenly spaced by their logarithm
-    #[arg(long, value_name = "TIME", default_value = "0.01 s")]
+    #[arg(long, value_name = "TIME", default_value_t = format!("{} s", USUAL_PERIODS.0))]
     pub from: String,
     /// Longest of them
-    #[arg(long, value_name = "TIME", default_value = "10 s")]
+    #[arg(long, value_name = "TIME", default_value_t = format!("{} s", USUAL_PERIODS.1))]
     pub to: String,
     /// Their number
-    #[arg(long, value_name = "N", default_value_t = 200)]
+    #[arg(long, value_name = "N", default_value_t = USUAL_PERIODS.2)]
     pub count: usize,
     /// Damping, such as "5 %" (which is the default) or 0.05; may be repeated
     #[arg(long, value_name = "DAMPING")]

@@ -9,6 +9,7 @@
 pub mod cases;
 pub mod censored;
 pub mod code;
+pub mod derivative;
 pub mod design;
 pub mod fragility;
 pub mod grid;

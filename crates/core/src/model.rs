@@ -10,7 +10,8 @@ pub use structure::{ModeInPlane, OscillatorInPlane, Structure, StructureMode, St
 pub use tank::LiquidTank;
 
 use crate::error::ModelError;
-use crate::slider::{Bearing, Ends, Friction, Law, Restoring};
+use crate::slider::ranges::{finite, in_range, not_negative, optional_positive, positive};
+use crate::slider::{Friction, Law};
 use crate::units::STANDARD_GRAVITY_M_PER_S2;
 
 pub use crate::slider::{Slider, Stop, StopKind};
@@ -173,19 +174,7 @@ impl Model {
         optional_positive("block width_m", block.width_m)?;
         optional_positive("block height_m", block.height_m)?;
         let start_m = initial.sliding_displacement_m;
-        check_bearing(&slider.bearing, start_m)?;
-        not_negative("slider damper_n_s_per_m", slider.damper_n_s_per_m)?;
-        match &slider.ends {
-            Ends::Open { gap_m } => optional_positive("slider gap_m", *gap_m)?,
-            Ends::Stop(stop) => check_stop(stop)?,
-        }
-        if !(slider.tilt_rad.abs() < core::f64::consts::FRAC_PI_2) {
-            return Err(ModelError::OutOfRange {
-                quantity: "slider tilt_rad",
-                expected: "a tilt between −π/2 and π/2",
-                found: slider.tilt_rad,
-            });
-        }
+        slider.check(start_m)?;
         positive("gravity_m_per_s2", gravity_m_per_s2)?;
         each("storey masses_kg", n, &frame.masses_kg, positive)?;
         each("storey stiffnesses_n_per_m", n, &frame.stiffnesses_n_per_m, positive)?;
@@ -197,14 +186,7 @@ impl Model {
             each("storey heights_m", n, heights_m, positive)?;
         }
         check_start(&initial, n)?;
-        if let Some(Stop { gap_m: [positive, negative], kind: StopKind::Rigid { .. } }) =
-            slider.stop()
-        {
-            let within = positive.is_none_or(|gap_m| start_m <= gap_m)
-                && negative.is_none_or(|gap_m| -start_m <= gap_m);
-            let expected = "a place between the rigid stops";
-            in_range("initial sliding_displacement_m", expected, start_m, within)?;
-        }
+        slider.stop().map_or(Ok(()), |stop| stop.admits(start_m))?;
         let model = Self {
             block,
             slider,
@@ -388,14 +370,6 @@ impl Model {
         &self.contents
     }
 
-    /// Whether it has nothing beyond one surface of constant friction but stops.
-    #[must_use]
-    pub fn is_plain_between_stops(&self, vertical: bool) -> bool {
-        self.slider.friction().is_some_and(|friction| friction.rate().is_none())
-            && self.contents.is_empty()
-            && self.slider.pendulum_radius_m(vertical).is_none()
-    }
-
     /// The rigid block alone on a level surface at rest, under standard gravity.
     ///
     /// # Errors
@@ -577,69 +551,6 @@ impl Model {
         let at_rest = || vec![0.0; self.storeys()];
         self.initial.storey_velocity_m_per_s.clone().unwrap_or_else(at_rest)
     }
-}
-
-fn check_bearing(bearing: &Bearing, start_m: f64) -> Result<(), ModelError> {
-    match bearing {
-        Bearing::Surface { restoring, .. } => match *restoring {
-            Restoring::None => Ok(()),
-            Restoring::Spring { stiffness_n_per_m } => {
-                not_negative("slider stiffness_n_per_m", stiffness_n_per_m)
-            }
-            Restoring::Pendulum { radius_m } => positive("slider radius_m", radius_m),
-        },
-        Bearing::InSeries(series) => in_range(
-            "initial sliding_displacement_m",
-            "less than the travel of all surfaces",
-            start_m,
-            series.travel_m().is_none_or(|travel_m| start_m.abs() < travel_m),
-        ),
-    }
-}
-
-fn check_stop(stop: &Stop) -> Result<(), ModelError> {
-    if stop.gap_m == [None; 2] {
-        let expected = "a gap on one side at least";
-        return Err(ModelError::Missing { quantity: "stop gap_m", expected });
-    }
-    stop.gap_m.into_iter().try_for_each(|gap_m| optional_positive("stop gap_m", gap_m))?;
-    match stop.kind {
-        StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } => {
-            positive("stop stiffness_n_per_m", stiffness_n_per_m)?;
-            not_negative("stop damper_n_s_per_m", damper_n_s_per_m)
-        }
-        StopKind::Rigid { restitution } => in_range(
-            "stop restitution",
-            "a number from 0 to 1",
-            restitution,
-            (0.0..=1.0).contains(&restitution),
-        ),
-    }
-}
-
-fn finite(quantity: &'static str, found: f64) -> Result<(), ModelError> {
-    in_range(quantity, "a finite number", found, found.is_finite())
-}
-
-fn positive(quantity: &'static str, found: f64) -> Result<(), ModelError> {
-    in_range(quantity, "a finite number > 0", found, found.is_finite() && found > 0.0)
-}
-
-fn not_negative(quantity: &'static str, found: f64) -> Result<(), ModelError> {
-    in_range(quantity, "a finite number ≥ 0", found, found.is_finite() && found >= 0.0)
-}
-
-fn optional_positive(quantity: &'static str, found: Option<f64>) -> Result<(), ModelError> {
-    found.map_or(Ok(()), |value| positive(quantity, value))
-}
-
-fn in_range(
-    quantity: &'static str,
-    expected: &'static str,
-    found: f64,
-    holds: bool,
-) -> Result<(), ModelError> {
-    if holds { Ok(()) } else { Err(ModelError::OutOfRange { quantity, expected, found }) }
 }
 
 fn check_start(initial: &InitialState, storeys: usize) -> Result<(), ModelError> {

@@ -15,7 +15,7 @@ pub use figures::Figures;
 pub use fourier::FourierSpectrum;
 pub use made::{Pulse, PulseShape, Sine, Sweep, SweepKind};
 pub use series::{Quantity, Series};
-pub use spectrum::{Ordinates, Spectrum, logarithmic_periods, spectrum};
+pub use spectrum::{Ordinates, Spectrum, USUAL_PERIODS, logarithmic_periods, spectrum};
 
 use std::sync::Arc;
 
@@ -189,6 +189,17 @@ impl GroundMotion {
             Some(y) => Self { horizontal_m_per_s2: y.clone(), ..self.along_x() },
             None => self.along_x(),
         }
+    }
+
+    /// Its vertical component as a motion along x.
+    pub(crate) fn upwards(&self) -> Option<Self> {
+        let up = self.vertical_m_per_s2.as_ref()?.clone();
+        Some(Self { horizontal_m_per_s2: up, vertical_m_per_s2: None, ..self.along_x() })
+    }
+
+    /// What of the motion is along x, alone.
+    pub(crate) fn horizontal_alone(self) -> Self {
+        Self { vertical_m_per_s2: None, horizontal_y_m_per_s2: None, ..self }
     }
 
     /// Acceleration normal to the sliding surface at the samples, Üv in m/s², positive upwards.

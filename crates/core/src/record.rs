@@ -312,6 +312,23 @@ pub fn read(source_name: &str, bytes: &[u8], options: &Options) -> Result<Record
     Ok(record)
 }
 
+/// [`read`] of delimited text, which is not asked whether another format knows it.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_delimited(
+    source_name: &str,
+    bytes: &[u8],
+    options: &Options,
+) -> Result<Record, RecordError> {
+    let text = Text::new(source_name, bytes)?;
+    given(&text, options)?;
+    let mut record = delimited::read(&text, options)?;
+    distinct(&mut record.channels);
+    record.channels.iter_mut().for_each(quality::inspect);
+    Ok(record)
+}
+
 /// The format of binary bytes: the one asked for, else the one that knows them.
 fn binary(bytes: &[u8], options: &Options) -> Option<Format> {
     match options.format {
@@ -323,7 +340,8 @@ fn binary(bytes: &[u8], options: &Options) -> Option<Format> {
     }
 }
 
-fn read_text(text: &Text, options: &Options) -> Result<Record, RecordError> {
+/// Refuses a time step that is none.
+fn given(text: &Text, options: &Options) -> Result<(), RecordError> {
     if let Some(dt_s) = options.dt_s
         && !(dt_s.is_finite() && dt_s > 0.0)
     {
@@ -335,6 +353,11 @@ fn read_text(text: &Text, options: &Options) -> Result<Record, RecordError> {
         let expected = "a time step of at most 1000 s given as dt";
         return Err(text.error_at_start(expected, &format!("{dt_s} s")));
     }
+    Ok(())
+}
+
+fn read_text(text: &Text, options: &Options) -> Result<Record, RecordError> {
+    given(text, options)?;
     match options.format.unwrap_or_else(|| recognise(text)) {
         Format::Peer => peer::read(text, options),
         Format::Csmip => csmip::read(text, options),

@@ -14,8 +14,10 @@ pub use fields::{Door, Field, Request, Takes};
 pub use kinds::{Kind, NOT_OFFERED, table};
 pub use laboratory::Comparing;
 pub use single::Single;
+pub use suite::{code_spectrum, periods};
 
 use crate::assessment::code::{Plan, PropertyFactors};
+use crate::assessment::derivative::{DerivativeRequest, DerivativeRun, run_derivatives};
 use crate::assessment::design::{DesignRequest, DesignRun, Target, run_design};
 use crate::assessment::grid::levels;
 use crate::assessment::histories::Histories;
@@ -29,7 +31,7 @@ use crate::assessment::spectrum::{SpectrumRequest, SpectrumRun, run_spectrum};
 use crate::assessment::suite::{Recorded, Suite};
 use crate::assessment::{AssessmentError, refuse};
 use crate::error::{ChoiceError, MeasureError};
-use crate::input::{Analysis, Bound, FrictionBounds, Override};
+use crate::input::{Analysis, Bound, FrictionBounds, Override, dimension_of};
 use crate::motion::intensity::LevelMeasure;
 use crate::notice::Notice;
 use crate::response::DemandColumn;
@@ -106,6 +108,8 @@ pub enum Results {
     },
     /// A sliding spectrum.
     Spectrum(SpectrumRun),
+    /// Derivatives of the demands.
+    Sensitivity(DerivativeRun),
     /// An incremental dynamic analysis.
     Ida {
         /// The intensity measure.
@@ -162,7 +166,7 @@ pub enum Curves {
 }
 
 impl Request {
-    /// Runs a spectrum, an incremental dynamic analysis or a design; of a fragility, the incremental dynamic
+    /// Runs a spectrum, derivatives, an incremental dynamic analysis or a design; of a fragility, the incremental dynamic
     /// analysis is asked for by itself.
     ///
     /// # Errors
@@ -177,10 +181,11 @@ impl Request {
         }
         let (found, scaled) = match self.kind() {
             Kind::Spectrum => self.spectrum(on, engine)?,
+            Kind::Sensitivity => self.derivatives(on, engine)?,
             Kind::Ida => (self.ida(on, engine)?, String::new()),
             Kind::Design => self.design(on, engine)?,
             kind => {
-                let expected = "an analysis over a suite: spectrum, ida or design";
+                let expected = "an analysis over a suite: spectrum, sensitivity, ida or design";
                 return Err(refuse("kind", expected, kind.name()));
             }
         };
@@ -287,6 +292,33 @@ impl Request {
             bounds: &bounds,
         };
         Ok((Results::Spectrum(run_spectrum(&request, engine)?), scaled))
+    }
+
+    fn derivatives(
+        &self,
+        on: &On<'_>,
+        engine: &Engine<'_>,
+    ) -> Result<(Results, String), AssessmentError> {
+        let mut varied = Vec::new();
+        for path in self.listed("paths") {
+            let unit = dimension_of(path)?.map_or("", Dimension::si_unit);
+            let Some(value) = on.analysis.value(path) else {
+                let found = format!("{path:?}, of which the model says nothing");
+                return Err(refuse("paths", "keys that stand in the model as one number", found));
+            };
+            varied.push(("paths", format!("{path}={value:?} {unit}").trim_end().to_owned()));
+        }
+        let models = Models::new(on.source, on.text, on.set, &varied, false)?;
+        let models = if on.suite.in_plane() { models.in_plane() } else { models };
+        let (scaling, scaled) = self.scaling(None, &[])?;
+        let demands: Vec<String> = self.listed("demand").into_iter().map(str::to_owned).collect();
+        let request = DerivativeRequest {
+            models: &models,
+            suite: on.suite,
+            scaling: &scaling,
+            demands: &demands,
+        };
+        Ok((Results::Sensitivity(run_derivatives(&request, engine)?), scaled))
     }
 
     fn ida(&self, on: &On<'_>, engine: &Engine<'_>) -> Result<Results, AssessmentError> {

@@ -5,21 +5,29 @@
 //! [`Stop`]. It cannot hold what no slider has. Its law (`law`) says what is in force, where that ends,
 //! what holds at rest and what follows; nothing else knows one kind of slider from another.
 
+mod branch;
 mod friction;
+mod hold;
 mod isotropic;
 mod law;
+pub(crate) mod ranges;
 mod rate;
 mod series;
 mod stop;
 
+pub(crate) use branch::{Affine, EXITS, Exit, Fading, Reached, TwoBranches};
+pub(crate) use branch::{Restraint, Restraints, SlipForce};
 pub use friction::Friction;
+pub(crate) use hold::{Disc, Hold};
 pub(crate) use isotropic::Kinetic;
-pub(crate) use law::{Affine, EXITS, Exit, Fading, Hold, Law, Memory, Reached, TwoBranches};
-pub(crate) use law::{Restraint, Restraints, SlipForce};
+pub(crate) use law::{Law, Memory};
 pub(crate) use rate::Coefficient;
 pub use rate::{RateCurve, RateLaw};
 pub use series::{Surface, SurfacesInSeries};
 pub use stop::{Contact, Stop, StopKind};
+
+use self::ranges::{in_range, not_negative, optional_positive, positive};
+use crate::error::ModelError;
 
 /// Direction of sliding along x.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -122,6 +130,10 @@ impl Bearing {
             Self::InSeries(series) => Some(series),
         }
     }
+
+    fn surfaces(&self) -> &[Surface] {
+        self.series().map_or(&[], SurfacesInSeries::surfaces)
+    }
 }
 
 /// What draws a block on one surface back to `s = 0`.
@@ -196,6 +208,33 @@ impl Slider {
         Self::on(Bearing::InSeries(series))
     }
 
+    /// Refuses what no slider has, on one from which the block starts at `start_m`.
+    pub(crate) fn check(&self, start_m: f64) -> Result<(), ModelError> {
+        match &self.bearing {
+            Bearing::Surface { restoring, .. } => match *restoring {
+                Restoring::None => {}
+                Restoring::Spring { stiffness_n_per_m } => {
+                    not_negative("slider stiffness_n_per_m", stiffness_n_per_m)?;
+                }
+                Restoring::Pendulum { radius_m } => positive("slider radius_m", radius_m)?,
+            },
+            Bearing::InSeries(series) => in_range(
+                "initial sliding_displacement_m",
+                "less than the travel of all surfaces",
+                start_m,
+                series.travel_m().is_none_or(|travel_m| start_m.abs() < travel_m),
+            )?,
+        }
+        not_negative("slider damper_n_s_per_m", self.damper_n_s_per_m)?;
+        match &self.ends {
+            Ends::Open { gap_m } => optional_positive("slider gap_m", *gap_m)?,
+            Ends::Stop(stop) => stop.check()?,
+        }
+        let tilt_rad = self.tilt_rad;
+        let is_within = tilt_rad.abs() < core::f64::consts::FRAC_PI_2;
+        in_range("slider tilt_rad", "a tilt between −π/2 and π/2", tilt_rad, is_within)
+    }
+
     /// The friction of one surface.
     #[must_use]
     pub fn friction(&self) -> Option<&Friction> {
@@ -212,6 +251,45 @@ impl Slider {
     #[must_use]
     pub fn series(&self) -> Option<&SurfacesInSeries> {
         self.bearing.series()
+    }
+
+    /// The surfaces in series, in their order; none where there is one surface.
+    #[must_use]
+    pub fn surfaces(&self) -> &[Surface] {
+        self.bearing.surfaces()
+    }
+
+    /// Radii in m: of a pendulum on one surface, and by their places of surfaces in series that have one.
+    pub(crate) fn radii_m(&self) -> impl Iterator<Item = (Option<usize>, f64)> + '_ {
+        let of = |(i, surface): (usize, &Surface)| Some((Some(i), surface.radius_m?));
+        let whole = self.radius_m().map(|radius_m| (None, radius_m));
+        self.surfaces().iter().enumerate().filter_map(of).chain(whole)
+    }
+
+    /// The loop of the slider pushed slowly, as surfaces in series: the mean coefficient over both directions and
+    /// the stiffness over the weight in 1/m of each. None where friction follows the speed.
+    pub(crate) fn slow_loop(&self, normal_n: f64, weight_n: f64) -> Option<Vec<[f64; 2]>> {
+        let of = |surface: &Surface| [surface.friction, surface.curvature()];
+        match &self.bearing {
+            Bearing::InSeries(series) => Some(series.surfaces().iter().map(of).collect()),
+            Bearing::Surface { friction, .. } => friction.rate().is_none().then(|| {
+                let [positive, negative] = self.coefficients()[1];
+                vec![[0.5 * (positive + negative), self.stiffness_n_per_m(normal_n) / weight_n]]
+            }),
+        }
+    }
+
+    /// The same held by a coefficient of friction, on a spring with the stiffness that it has under a normal
+    /// force, without a gap.
+    ///
+    /// # Errors
+    /// As [`Friction::new`].
+    pub(crate) fn held(&self, coefficient: f64, normal_n: f64) -> Result<Self, ModelError> {
+        let friction = Friction::new(coefficient, coefficient)?;
+        let ends = self.stop().copied().into();
+        let Self { damper_n_s_per_m, tilt_rad, .. } = *self;
+        let sprung = Self::sprung(friction, self.stiffness_n_per_m(normal_n));
+        Ok(Self { damper_n_s_per_m, tilt_rad, ends, ..sprung })
     }
 
     /// Static and kinetic coefficients towards +x and −x: of friction by the speed that at rest, of
@@ -277,6 +355,12 @@ impl Slider {
         }
     }
 
+    /// Distances from `s = 0` to it towards +x and −x in m.
+    #[must_use]
+    pub fn stop_m(&self) -> [Option<f64>; 2] {
+        self.stop().map_or([None; 2], |stop| stop.gap_m)
+    }
+
     /// Force of an elastic stop on the block in a contact, as a size in N.
     #[must_use]
     pub fn stop_force_n(&self, contact: Contact, s: f64, w: f64) -> f64 {
@@ -296,10 +380,7 @@ impl Slider {
     ///
     /// # Errors
     /// As [`Friction::scaled`].
-    pub(crate) fn with_friction_times(
-        &self,
-        factor: f64,
-    ) -> Result<Self, crate::error::ModelError> {
+    pub(crate) fn with_friction_times(&self, factor: f64) -> Result<Self, ModelError> {
         let mut slider = self.clone();
         match &mut slider.bearing {
             Bearing::Surface { friction, .. } => *friction = friction.scaled(factor)?,

@@ -1,9 +1,11 @@
 //! Solves the equations of motion: exactly, or by the paper's stepwise program.
 
+mod chords;
 mod course;
 mod dense;
 mod direct;
 mod ground;
+mod instructions;
 mod modal;
 mod outputs;
 mod phase;
@@ -15,7 +17,7 @@ mod stepwise;
 mod summary;
 mod tables;
 mod walk;
-mod workspace;
+mod windows;
 
 use crate::error::SolveError;
 use crate::model::Model;
@@ -24,9 +26,9 @@ use crate::progress::{GoOn, UNWATCHED};
 use crate::response::{Method, Response};
 
 pub use crate::linear::{FrameModes, shear_frame_modes};
-pub use prepared::{InstructionSet, Prepared, PreparedMotion};
+pub use instructions::InstructionSet;
+pub use prepared::{Prepared, PreparedMotion, Workspace};
 pub use walk::EVENTS_PER_INTERVAL_LIMIT;
-pub use workspace::Workspace;
 
 /// Exact response with its history.
 ///
@@ -61,6 +63,18 @@ pub fn exact(model: &Model, motion: &GroundMotion) -> Result<Response, SolveErro
 /// [`SolveError`] with time and cause.
 pub fn exact_demands(model: &Model, motion: &GroundMotion) -> Result<Response, SolveError> {
     prepared::solve_once(model, motion, false, UNWATCHED)
+}
+
+/// [`exact_demands`] as long as `go_on` says so, which is asked every few milliseconds.
+///
+/// # Errors
+/// [`SolveError::Stopped`] where it says no, otherwise [`SolveError`] with time and cause.
+pub fn exact_demands_while(
+    model: &Model,
+    motion: &GroundMotion,
+    go_on: GoOn<'_>,
+) -> Result<Response, SolveError> {
+    prepared::solve_once(model, motion, false, go_on)
 }
 
 /// Response by the paper's own program (eqs 5, 6, 15–18), with history and iteration counts.

@@ -2,7 +2,8 @@
 //!
 //! `load MODEL` opens a model on its record. `time COUNT` prints the nanoseconds of so many analyses of the
 //! demands, set-up of the system included. `history FILE` writes the sliding displacement at the samples as
-//! little-endian doubles and prints the number of samples and events. `script K_INIT FILE` writes the model
+//! little-endian doubles, in two directions along x, then along y, and prints the number of samples and
+//! events. `script K_INIT FILE` writes the model
 //! as a script for OpenSees, K_INIT being in N/m.
 
 #![allow(clippy::print_stdout, reason = "its answers")]
@@ -69,10 +70,15 @@ fn history(open: &OpenJob, file: &str) -> Result<String, Box<dyn Error>> {
     // Of the two rows of a jump the right one, as in the script.
     let time_s = |row: &usize| history.time_s[*row];
     let pairs = history.rows.iter().zip(history.rows.iter().skip(1).map(Some).chain([None]));
-    let bytes: Vec<u8> = pairs
+    let rows: Vec<usize> = pairs
         .filter(|(row, next)| next.is_none_or(|next| time_s(next) > time_s(row)))
-        .flat_map(|(&row, _)| history.sliding_displacement_m[row].to_le_bytes())
+        .map(|(row, _)| *row)
         .collect();
+    let along_y = response.in_plane.as_deref().and_then(|plane| plane.history.as_ref());
+    let along_y = along_y.map(|y| &y.sliding_displacement_m);
+    let axes = core::iter::once(&history.sliding_displacement_m).chain(along_y);
+    let bytes: Vec<u8> =
+        axes.flat_map(|s| rows.iter().flat_map(move |&row| s[row].to_le_bytes())).collect();
     std::fs::write(file, &bytes)?;
-    Ok(format!("{} {}", bytes.len() / 8, response.events.len()))
+    Ok(format!("{} {}", rows.len(), response.events.len()))
 }

@@ -1,6 +1,7 @@
 //! Times one analysis as the Python package calls it: `cargo xtask bench-python`.
 //!
-//! `run_bench MODEL`; every line of standard input is a number of runs, answered by the nanoseconds of each.
+//! `run_bench MODEL`; every line of standard input is a number of runs, answered by the nanoseconds of each;
+//! after the word `demands` the solver alone is run, without bounds of friction, history and certificate.
 
 #![allow(clippy::print_stdout, reason = "its answers")]
 
@@ -10,6 +11,7 @@ use std::time::Instant;
 
 use slipstick::assessment::single::Job;
 use slipstick::input;
+use slipstick::solver::exact_demands;
 use slipstick_files::{OpenJob, read_at_most};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -18,8 +20,22 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let analysis = input::from_bytes(&path.display().to_string(), &bytes, &[])?;
     let open = OpenJob::new(&path, analysis, None)?;
     for line in io::stdin().lock().lines() {
-        let count: usize = line?.trim().parse()?;
+        let line = line?;
+        let (count, demands) = match line.trim().strip_prefix("demands ") {
+            Some(count) => (count.parse()?, true),
+            None => (line.trim().parse::<usize>()?, false),
+        };
         let mut told = Vec::with_capacity(count);
+        if demands {
+            let Job { analysis, motion, .. } = &open.job;
+            for _ in 0..count {
+                let start = Instant::now();
+                let response = exact_demands(&analysis.model, motion)?;
+                told.push(start.elapsed().as_nanos().to_string());
+                drop(response);
+            }
+        }
+        let count = if demands { 0 } else { count };
         for _ in 0..count {
             let start = Instant::now();
             let job = Job::new(open.job.analysis.clone(), open.job.loaded.clone())?;

@@ -11,12 +11,13 @@ use slipstick::record::Units;
 use slipstick::requests::{Answer, Kind, On, Runs};
 use slipstick::units::Dimension;
 use slipstick_files::{
-    ReadRecords, SuiteError, SuiteRequest, files_of_runs, limit_of_ida, read_runs, read_target,
+    OpenJob, ReadRecords, SuiteError, SuiteRequest, files_of_runs, limit_of_ida, read_runs,
+    read_target,
 };
 use slipstick_report::DisplayUnits;
 use slipstick_report::assessment::{Sheet, Went, answer};
 
-use crate::errors::{of_argument, of_assessment, of_file, warn, warn_severe};
+use crate::errors::{of_argument, of_assessment, of_file, of_job, warn, warn_severe};
 use crate::model::Model;
 use crate::motion::Motion;
 use crate::requests::{Asked, asked};
@@ -36,6 +37,7 @@ impl Assessment {
     fn new(py: Python<'_>, kind: Kind, answer: Answer) -> PyResult<Self> {
         let call = match kind {
             Kind::Spectrum => "slipstick.spectrum(model, records, over)",
+            Kind::Sensitivity => "slipstick.sensitivity(model, motions, paths)",
             Kind::Ida => "slipstick.ida(model, records)",
             Kind::Design => "slipstick.design(model, records, vary)",
             Kind::Fragility => "slipstick.fragility(table)",
@@ -123,8 +125,8 @@ pub(crate) fn read_suite(
 /// Records by their names.
 type Named = Vec<(String, Motion)>;
 
-/// The suite of records, of pairs with their other components.
-fn suite_of(py: Python<'_>, records: Named, second: Named) -> PyResult<Suite> {
+/// The suite of records, of pairs with their other components; perhaps of motions in two directions.
+fn suite_of(py: Python<'_>, records: Named, second: Named, planar: bool) -> PyResult<Suite> {
     let pairs = !second.is_empty();
     if pairs && second.len() != records.len() {
         let expected = format!("one other component for each of {} records", records.len());
@@ -133,7 +135,9 @@ fn suite_of(py: Python<'_>, records: Named, second: Named) -> PyResult<Suite> {
     let mut others = second.into_iter();
     let in_plane =
         |(_, motion): &&(String, Motion)| motion.0.motion.horizontal_y_m_per_s2().is_some();
-    if let Some((name, _)) = records.iter().find(in_plane) {
+    if let Some((name, _)) = records.iter().find(in_plane)
+        && !(planar && records.iter().all(|record| in_plane(&record)) && !pairs)
+    {
         let expected = "motions in one direction (run takes one in two)";
         return Err(of_argument(py, "records", expected, &format!("{name:?} in two")));
     }
@@ -144,6 +148,14 @@ fn suite_of(py: Python<'_>, records: Named, second: Named) -> PyResult<Suite> {
         suite.pair_up();
     }
     Ok(suite)
+}
+
+/// The model's own motion as a suite of one.
+fn own_motion(py: Python<'_>, model: &Model) -> PyResult<Suite> {
+    let analysis = model.analysis.clone();
+    let open = OpenJob::new(model.path(), analysis, None).map_err(|error| of_job(py, &error))?;
+    let (made, loaded) = (open.sources.is_empty(), open.job.loaded);
+    Ok(Suite::of([(loaded.description.join("; "), loaded)], made))
 }
 
 /// A model on a suite.
@@ -167,7 +179,10 @@ pub(crate) fn assess(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Assessment> {
     let asked = asked(py, kind, given)?;
-    let suite = suite_of(py, records, second)?;
+    let suite = match records.is_empty() {
+        true => own_motion(py, model)?,
+        false => suite_of(py, records, second, asked.kind() == Kind::Sensitivity)?,
+    };
     let on = on(model.name(), model, &suite);
     let answer = followed(py, jobs, progress, |engine| asked.run(&on, engine))?;
     Assessment::new(py, asked.kind(), answer.map_err(|error| of_assessment(py, &error))?)
@@ -194,7 +209,7 @@ pub(crate) fn suite(
         read.map(|(spectrum, _)| (path.display().to_string(), spectrum))
     });
     let target = target.transpose()?;
-    let suite = suite_of(py, records, second)?;
+    let suite = suite_of(py, records, second, false)?;
     let on: Vec<On<'_>> = models.iter().map(|(name, model)| on(name, model, &suite)).collect();
     let target = target.as_ref().map(|(name, spectrum)| (name.as_str(), spectrum.clone()));
     let answer = followed(py, jobs, progress, |engine| asked.suite(&on, target, engine))?;

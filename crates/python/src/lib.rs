@@ -7,6 +7,7 @@ mod model;
 mod motion;
 mod requests;
 mod response;
+mod signal;
 mod study;
 mod table;
 mod values;
@@ -26,9 +27,11 @@ mod _core {
     #[pymodule_export]
     use super::motion::Motion;
     #[pymodule_export]
-    use super::requests::{fields, levels};
+    use super::requests::{check, fields, levels, schema, units};
     #[pymodule_export]
     use super::response::{Response, run};
+    #[pymodule_export]
+    use super::signal::read_channels;
     #[pymodule_export]
     use super::study::{Study, demands, study, study_id};
     #[pymodule_export]

@@ -10,6 +10,7 @@ use slipstick::error::InputError;
 use slipstick::input::{self, Analysis, InputValue, MotionSource, Override};
 use slipstick::units::Dimension;
 use slipstick_files::{modes_beside, read_at_most};
+use slipstick_report::examples;
 use slipstick_report::opensees::script;
 
 use crate::errors::{of_argument, of_file, of_input};
@@ -26,6 +27,9 @@ use crate::values::{quantity, written};
 ///     Keys of the model file with their values, nested or as paths: ``{"block": {"mass": "325 kg"}}``,
 ///     ``{"block.mass": "325 kg"}``. A value with a dimension is text with its unit, or a quantity of pint; one
 ///     without is any number, a scalar of NumPy too.
+/// tables
+///     The same by keyword, beside or in place of them: ``block=ss.Block(mass="325 kg")``,
+///     ``storey=[ss.Storey(...), ...]``, ``motion=ss.Sine(...)``.
 ///
 /// Raises
 /// ------
@@ -140,13 +144,20 @@ fn absolute(path: &str) -> String {
 #[pymethods]
 impl Model {
     #[new]
-    fn new(values: &Bound<'_, PyDict>) -> PyResult<Self> {
+    #[pyo3(signature = (values = None, **tables))]
+    fn new(
+        py: Python<'_>,
+        values: Option<&Bound<'_, PyDict>>,
+        tables: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
         let mut given = Vec::new();
-        flattened("", values, &mut given)?;
+        for values in values.into_iter().chain(tables) {
+            flattened("", values, &mut given)?;
+        }
         let text = |(path, text)| Some((path, InputValue::Text(text?)));
         let given = given.iter().map(|(path, text)| (path.as_str(), text.as_deref()));
         let texts: Vec<(&str, InputValue<'_>)> = given.filter_map(text).collect();
-        let analysis = input::from_values(&texts).map_err(|error| of_input(values.py(), &error))?;
+        let analysis = input::from_values(&texts).map_err(|error| of_input(py, &error))?;
         let text = analysis.to_toml_with_motion();
         Ok(Self { analysis, source: String::new(), text })
     }
@@ -202,6 +213,34 @@ impl Model {
         Ok(Self { analysis, source, text: text.to_owned() })
     }
 
+    /// Give an example, the one that ``slipstick init --example`` writes.
+    ///
+    /// Parameters
+    /// ----------
+    /// name
+    ///     ``"block"``, ``"mock-up"``, ``"frame"``, ``"stop"``, ``"double-pendulum"``, ``"triple-pendulum"``,
+    ///     ``"contents"``, ``"structure"`` or ``"tank-sloshing"``.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For another name.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import slipstick as ss
+    /// >>> ss.run(ss.Model.example("mock-up")).holds
+    /// True
+    #[staticmethod]
+    fn example(py: Python<'_>, name: &str) -> PyResult<Self> {
+        let Some(text) = examples::text(name) else {
+            let names: Vec<String> = examples::names().map(|name| format!("{name:?}")).collect();
+            let expected = format!("one of {}", names.join(", "));
+            return Err(of_argument(py, "name", &expected, &format!("{name:?}")));
+        };
+        Self::from_toml(py, &text, "")
+    }
+
     /// Take the structure from an eigenvalue analysis of OpenSees that stands in memory.
     ///
     /// Parameters
@@ -244,7 +283,11 @@ impl Model {
         }
         let asked = (ops, unit_kg, nodes, damping_ratio, modes, direction);
         let structure = py.import("slipstick._opensees")?.call_method1("structure", asked)?;
-        let text = format!("{}\n{}", Self::new(values)?.text, structure.extract::<String>()?);
+        let text = format!(
+            "{}\n{}",
+            Self::new(py, Some(values), None)?.text,
+            structure.extract::<String>()?
+        );
         Self::from_toml(py, &text, "")
     }
 

@@ -4,18 +4,22 @@ use std::cmp::Reverse;
 use std::path::PathBuf;
 
 use numpy::{IntoPyArray, PyArray1};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyFloat};
 use slipstick::error::MotionError;
 use slipstick::input::PairOf;
 use slipstick::input::loaded::Loaded;
-use slipstick::motion::GroundMotion;
+use slipstick::motion::{GroundMotion, Quantity};
 use slipstick::notice::{Notice, NoticeKind};
 use slipstick::record::{Origin, Units};
 use slipstick::units::Dimension;
 use slipstick_files::{AlongYRequest, LoadedMotion, RecordRequest, VerticalRequest, load_record};
+use slipstick_report::DisplayUnits;
+use slipstick_report::records::Histories;
 
 use crate::errors::{Escaped, of_argument, of_file, of_motion, warn_severe};
+use crate::signal;
 use crate::values::{accelerations, factor_of, quantity, samples};
 
 /// A ground motion, linear between its samples.
@@ -90,7 +94,7 @@ impl Motion {
     }
 
     /// It with a warning in Python where the figures are void.
-    fn said(self, py: Python<'_>) -> PyResult<Self> {
+    pub(crate) fn said(self, py: Python<'_>) -> PyResult<Self> {
         warn_severe(py, &self.0.warnings)?;
         Ok(self)
     }
@@ -226,19 +230,37 @@ impl Motion {
     /// pga
     ///     In place of it the peak that the horizontal component, of two the larger, is to have, with its unit:
     ///     ``"0.3 g"``.
+    /// spectrum
+    ///     In place of it a spectrum that it is brought to, 5 % damped, in the mean of the logarithms: the shape of
+    ///     ASCE/SEI 7, ``"sds = 1.2 g, sd1 = 0.8 g, tl = 8 s"``, a CSV with the columns ``period_s`` and ``sa_g``,
+    ///     or columns ``period_s`` and ``sa_m_per_s2``. Of two components the largest over all directions counts.
+    /// periods
+    ///     First and last period of that, ``"0.6 s..3.8 s"``.
     ///
     /// Raises
     /// ------
     /// InputError
-    ///     For a peak without its unit, for neither or both, and for a motion of zeros that is to have a peak.
-    #[pyo3(signature = (factor = None, *, pga = None))]
+    ///     For a peak without its unit, for none or several, and for a motion of zeros that is to have a peak.
+    #[pyo3(signature = (factor = None, *, pga = None, spectrum = None, periods = None))]
     fn scaled(
         &self,
         py: Python<'_>,
         factor: Option<&Bound<'_, PyAny>>,
         pga: Option<&Bound<'_, PyAny>>,
+        spectrum: Option<&Bound<'_, PyAny>>,
+        periods: Option<&str>,
     ) -> PyResult<Self> {
         let motion = &self.0.motion;
+        if let Some(target) = spectrum {
+            if factor.is_some() || pga.is_some() {
+                return Err(of_argument(py, "spectrum", "a factor, pga or a spectrum", "two"));
+            }
+            let factor = signal::factor_to_spectrum(py, motion, target, periods)?;
+            return Self::derived(py, self.0.scaled(factor), self);
+        }
+        if let Some(periods) = periods {
+            return Err(of_argument(py, "periods", "a spectrum beside them", periods));
+        }
         let (name, given, factor) = match (factor, pga) {
             (Some(given), None) => ("factor", given, factor_of(given)?),
             (None, Some(given)) => {
@@ -299,6 +321,268 @@ impl Motion {
         let angle_rad = quantity("angle", angle, Dimension::Angle, false)?;
         let scale_y = scale_y.map_or(Ok(1.0), factor_of)?;
         Self::derived(py, self.0.turned(scale_y, angle_rad), self)
+    }
+
+    /// Measure the motion: peaks, Arias intensity, durations, CAV and the other measures of ``slipstick record
+    /// info``, with the keys of its ``--json``.
+    ///
+    /// Parameters
+    /// ----------
+    /// names
+    ///     Further measures by their names, ``"Sa(1.2 s)"``, ``"Sa_avg(0.5 s, 3 s)"``, of two components
+    ///     ``"RotD50(1.2 s)"``, ``"RotD100(PGV)"``; of two components another one is the geometric mean of both.
+    ///
+    /// Returns
+    /// -------
+    /// dict
+    ///     Values in SI by key, and by name; None where there is none. Of two components those of ``x`` and ``y``.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For a name that is no measure, and a measure over all directions of a motion in one.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import slipstick as ss
+    /// >>> motion = ss.Motion([0.0, 1.0, 0.0], dt=0.5, units="m/s2")
+    /// >>> found = motion.measures("Sa(1 s)")
+    /// >>> found["pga_m_per_s2"], found["Sa(1 s)"] > 0.0
+    /// (1.0, True)
+    #[pyo3(signature = (*names))]
+    fn measures<'py>(&self, py: Python<'py>, names: Vec<String>) -> PyResult<Bound<'py, PyDict>> {
+        signal::measures(py, self, names)
+    }
+
+    /// Compute the elastic response spectrum, exactly between samples too, as ``slipstick record spectrum`` does.
+    ///
+    /// Parameters
+    /// ----------
+    /// periods
+    ///     Periods in s or with their unit; 200 from 0.01 s to 10 s if left out.
+    /// damping
+    ///     Damping ratios, ``0.05`` or ``"5 %"``; one or several.
+    ///
+    /// Returns
+    /// -------
+    /// Table
+    ///     Columns ``damping_ratio``, ``period_s``, ``sd_m``, ``sv_m_per_s``, ``psv_m_per_s``, ``psa_m_per_s2`` and
+    ///     ``sa_m_per_s2``, one row a period.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For periods and ratios that cannot be, and a motion in two directions: take one of its ``components``.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import slipstick as ss
+    /// >>> motion = ss.Motion([0.0, 1.0, 0.0], dt=0.5, units="m/s2")
+    /// >>> motion.spectrum([0.0, "1 s"])["sa_m_per_s2"].tolist()[0]
+    /// 1.0
+    #[pyo3(signature = (periods = None, *, damping = None))]
+    fn spectrum<'py>(
+        &self,
+        py: Python<'py>,
+        periods: Option<&Bound<'py, PyAny>>,
+        damping: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let usual = PyFloat::new(py, 0.05).into_any();
+        signal::response_spectrum(py, self, periods, damping.unwrap_or(&usual))
+    }
+
+    /// Compute the Fourier amplitudes, as ``slipstick record spectrum --fourier`` does.
+    ///
+    /// Parameters
+    /// ----------
+    /// step
+    ///     Largest step between frequencies, in Hz or with its unit; 0.05 Hz if left out.
+    ///
+    /// Returns
+    /// -------
+    /// Table
+    ///     Columns ``frequency_hz`` and ``fourier_amplitude_m_per_s``.
+    #[pyo3(signature = (step = None))]
+    fn fourier<'py>(
+        &self,
+        py: Python<'py>,
+        step: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        signal::fourier(py, self, step)
+    }
+
+    /// Process all components by named steps, as ``slipstick record process`` does.
+    ///
+    /// Parameters
+    /// ----------
+    /// steps
+    ///     In their order: ``"remove linear"``, ``"band-pass 0.1 Hz 25 Hz order 4"``, ``"taper 5 %"``,
+    ///     ``"resample 0.005 s"``, ``"trim 2 s 30 s"``, ``"scale 1.5"``, ``"to velocity"``. They end in acceleration.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For a step that is none, or that this motion does not take: a filter of uneven samples.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import slipstick as ss
+    /// >>> motion = ss.Motion([1.0, 2.0, 6.0], dt=0.5, units="m/s2")
+    /// >>> motion.processed("remove mean", "scale 2").acceleration_m_per_s2.tolist()
+    /// [-4.0, -2.0, 6.0]
+    #[pyo3(signature = (*steps))]
+    fn processed(&self, py: Python<'_>, steps: Vec<String>) -> PyResult<Self> {
+        signal::processed(py, self, "steps", &steps)
+    }
+
+    /// Filter all components by a Butterworth filter that runs forwards and backwards.
+    ///
+    /// Parameters
+    /// ----------
+    /// high_pass, low_pass
+    ///     Corner frequencies in Hz or with their unit; both for a band.
+    /// order
+    ///     Order of the filter that is run twice, from 1 to 10.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For neither, for corners that cannot be, and for uneven samples.
+    #[pyo3(signature = (*, high_pass = None, low_pass = None, order = 4))]
+    fn filter(
+        &self,
+        py: Python<'_>,
+        high_pass: Option<&Bound<'_, PyAny>>,
+        low_pass: Option<&Bound<'_, PyAny>>,
+        order: usize,
+    ) -> PyResult<Self> {
+        let corner = |name: &str, given: Option<&Bound<'_, PyAny>>| {
+            given.map(|given| quantity(name, given, Dimension::Frequency, true)).transpose()
+        };
+        let step = match (corner("high_pass", high_pass)?, corner("low_pass", low_pass)?) {
+            (Some(from), Some(to)) => ("filter", format!("band-pass {from:?} Hz {to:?} Hz")),
+            (Some(from), None) => ("high_pass", format!("high-pass {from:?} Hz")),
+            (None, Some(to)) => ("low_pass", format!("low-pass {to:?} Hz")),
+            (None, None) => {
+                return Err(of_argument(py, "high_pass", "a corner, or low_pass", "neither"));
+            }
+        };
+        signal::processed(py, self, step.0, &[format!("{} order {order}", step.1)])
+    }
+
+    /// Subtract the polynomial that fits the accelerations best, of all components.
+    ///
+    /// Parameters
+    /// ----------
+    /// degree
+    ///     0 for the mean, 1 for a straight line, at most 10.
+    #[pyo3(signature = (degree = 1))]
+    fn baseline(&self, py: Python<'_>, degree: usize) -> PyResult<Self> {
+        signal::processed(py, self, "degree", &[format!("remove polynomial {degree}")])
+    }
+
+    /// Sample all components anew along the straight lines, without a filter.
+    ///
+    /// Parameters
+    /// ----------
+    /// dt
+    ///     The new step, in s or with its unit.
+    fn resample(&self, py: Python<'_>, dt: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let dt_s = quantity("dt", dt, Dimension::Time, true)?;
+        signal::processed(py, self, "dt", &[format!("resample {dt_s:?} s")])
+    }
+
+    /// Write the motion as a file of the format that its name ends in: ``.csv``, ``.AT2``, ``.smc`` or ``.parquet``.
+    ///
+    /// Parameters
+    /// ----------
+    /// path
+    ///     The file, which is replaced.
+    ///
+    /// Returns
+    /// -------
+    /// Path
+    ///     The same path.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For a name of another format, and a motion of several components: write its ``components``.
+    /// RecordError
+    ///     For what the format cannot hold: uneven samples in AT2 and SMC.
+    /// OSError
+    ///     For a file that cannot be written.
+    fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<PathBuf> {
+        signal::write(py, self, &path)?;
+        Ok(path)
+    }
+
+    /// Draw acceleration, velocity and displacement over time in Matplotlib.
+    ///
+    /// Parameters
+    /// ----------
+    /// ax
+    ///     Where the acceleration alone is drawn; all three on a new figure if left out.
+    /// kwargs
+    ///     What lines take: ``color``, ``lw``.
+    ///
+    /// Returns
+    /// -------
+    /// Axes or array of Axes
+    #[pyo3(signature = (*, ax = None, **kwargs))]
+    fn plot<'py>(
+        slf: &Bound<'py, Self>,
+        ax: Option<&Bound<'py, PyAny>>,
+        kwargs: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let draw = slf.py().import("slipstick._plot")?.getattr("draw_motion")?;
+        draw.call((slf, ax), kwargs)
+    }
+
+    /// Give the motion as a stream of ObsPy, a trace for each component, in m/s².
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For uneven samples.
+    /// ImportError
+    ///     Without ObsPy.
+    fn to_obspy<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("slipstick._obspy")?.call_method1("stream", (slf,))
+    }
+
+    /// The components by name, ``x``, ``y``, ``vertical``, each a motion in one direction.
+    #[getter]
+    fn components<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        signal::components(py, self)
+    }
+
+    /// Velocity of the table in m/s, from rest at the first sample.
+    #[getter]
+    fn velocity_m_per_s<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        signal::integral(self, Quantity::Velocity).into_pyarray(py)
+    }
+
+    /// Displacement of the table in m, from rest at the first sample.
+    #[getter]
+    fn displacement_m<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        signal::integral(self, Quantity::Displacement).into_pyarray(py)
+    }
+
+    /// ``motion["2 s":"30 s"]`` is the part between two times, its clock started anew; ``motion["3.2 s"]`` is the
+    /// acceleration along x at a time in m/s². Numbers are s.
+    fn __getitem__<'py>(
+        &self,
+        py: Python<'py>,
+        key: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        signal::at(py, self, key)
+    }
+
+    /// A time is no place to start from: times are ``time_s``.
+    fn __iter__(&self) -> PyResult<Py<PyAny>> {
+        let expected = "motion.acceleration_m_per_s2 or motion.components, which have items";
+        Err(PyTypeError::new_err(format!("expected {expected}, found the motion")))
     }
 
     /// Times of the samples in s.
@@ -397,7 +681,8 @@ impl Motion {
             format!("<p><b>{}:</b> {}</p>", notice.label(), Escaped(&notice.message))
         };
         let noticed: String = self.noticed().iter().map(of).collect();
-        format!("{noticed}<p>{}</p>", Escaped(&self.described()))
+        let picture = Histories { motion: &self.0.motion, display: DisplayUnits::Si }.drawn();
+        format!("{noticed}<p>{}</p>{}", Escaped(&self.described()), picture.svg.as_str())
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Pickled<'py>)> {

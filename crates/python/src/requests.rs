@@ -2,10 +2,13 @@
 
 use pyo3::prelude::*;
 use slipstick::assessment::grid;
+use slipstick::input::{self, Override, dimension_of};
 use slipstick::motion::intensity::LevelMeasure;
 use slipstick::requests::{Door, Field, Kind, Request, Takes};
+use slipstick::units::{Dimension, Unit, all};
 
-use crate::errors::{of_argument, of_assessment, of_choice};
+use crate::errors::{of_argument, of_assessment, of_choice, of_input};
+use crate::values::{plain, quantity};
 
 /// What is given, `(keyword, text)`.
 pub(crate) type Asked = Vec<(String, String)>;
@@ -40,4 +43,33 @@ pub(crate) fn levels(py: Python<'_>, text: &str, measure: &str) -> PyResult<Vec<
     let levels = grid::levels("levels", text, &measure.measure);
     let levels = levels.map_err(|error| of_assessment(py, &error))?;
     Ok(levels.iter().map(|level| format!("{level:?} {}", measure.unit())).collect())
+}
+
+/// The JSON schema of the model file, or of a plan.
+#[pyfunction]
+pub(crate) fn schema(plan: bool) -> String {
+    if plan { input::plan_json_schema() } else { input::json_schema() }
+}
+
+/// All units: name, what it measures, what one of it is in SI, the SI unit.
+#[pyfunction]
+pub(crate) fn units() -> Vec<(&'static str, &'static str, f64, &'static str)> {
+    let of = |(dimension, unit): (Dimension, &'static Unit)| {
+        (unit.name(), dimension.name(), unit.to_si(1.0), dimension.si_unit())
+    };
+    all().map(of).collect()
+}
+
+/// Checks one value of a model by its path: its kind and its unit. Tables and lists are the model's to check.
+#[pyfunction]
+pub(crate) fn check(path: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
+    let py = value.py();
+    let item = path.replacen("storey.", "storey.1.", 1).replacen("contents.", "contents.1.", 1);
+    let item = item.replacen("slider.surface.", "slider.surface.1.", 1);
+    Override::removal(&item).map_err(|error| of_input(py, &error))?;
+    let is_plain = plain(path, value)?.is_some();
+    match dimension_of(&item) {
+        Ok(Some(dimension)) if is_plain => quantity(path, value, dimension, false).map(drop),
+        _ => Ok(()),
+    }
 }

@@ -2,17 +2,20 @@
 
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 use numpy::{IntoPyArray, PyArray1};
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use slipstick::assessment::single::{Job, Outcome};
+use slipstick::assessment::single::{self, Job, Outcome, Solved};
 use slipstick::error::{SolveError, Stopped};
 use slipstick::notice::{Notice, Severity};
 use slipstick::progress::GoOn;
-use slipstick::response::History;
+use slipstick::response::{History, Response as Answer};
 use slipstick_files::{JobError, LoadedMotion, OpenJob};
+use slipstick_report::figures::{self, Drawn};
 use slipstick_report::{DisplayUnits, FileNote, InputText, Report, Summary};
 
 use crate::errors::{of_argument, of_job};
@@ -22,18 +25,21 @@ use crate::work::interruptible;
 
 /// Runs a model on a motion, on its own where none is given.
 #[pyfunction]
-#[pyo3(signature = (model, motion = None, *, floor_spectrum = false))]
+#[pyo3(signature = (model, motion = None, *, floor_spectrum = false, history = true, check = true))]
 pub(crate) fn run(
     py: Python<'_>,
-    model: &Model,
-    motion: Option<&Motion>,
+    model: &Bound<'_, Model>,
+    motion: Option<&Bound<'_, Motion>>,
     floor_spectrum: bool,
+    history: bool,
+    check: bool,
 ) -> PyResult<Response> {
+    let own = model.get().analysis.motion.as_ref();
     let in_plane = match motion {
-        None => model.analysis.motion.as_ref().is_some_and(|source| source.key_of_y().is_some()),
-        Some(Motion(loaded)) => loaded.motion.horizontal_y_m_per_s2().is_some(),
+        None => own.is_some_and(|source| source.key_of_y().is_some()),
+        Some(motion) => motion.get().0.motion.horizontal_y_m_per_s2().is_some(),
     };
-    if motion.is_none() && model.analysis.motion.is_none() {
+    if motion.is_none() && own.is_none() {
         let expected = "a motion, for the model has none of its own";
         return Err(of_argument(py, "motion", expected, "none"));
     }
@@ -41,29 +47,55 @@ pub(crate) fn run(
         let expected = "False with a motion in two directions";
         return Err(of_argument(py, "floor_spectrum", expected, "True"));
     }
-    let work = |go_on: GoOn<'_>| -> Result<Response, JobError> {
-        let start = Instant::now();
+    if floor_spectrum && !(history && check) {
+        let expected = "False without a history and its check";
+        return Err(of_argument(py, "floor_spectrum", expected, "True"));
+    }
+    let start = Instant::now();
+    let (of, on) = (model.get(), motion.map(|motion| &motion.get().0));
+    let work = |go_on: GoOn<'_>| -> Result<(OnceLock<OpenJob>, Found), JobError> {
         // Copies of long motions take their time too.
         let ask = || match go_on() {
             ControlFlow::Continue(()) => Ok(()),
             ControlFlow::Break(()) => Err(SolveError::Stopped(Stopped)),
         };
-        let analysis = model.analysis.clone();
-        let job = match motion {
-            None => OpenJob::new(model.path(), analysis, None)?,
-            Some(Motion(LoadedMotion { loaded, sources })) => {
+        let analysis = &of.analysis;
+        if let (Some(on), false) = (on, check) {
+            let motion = single::motion_of(analysis, &on.motion)?;
+            let solved = single::solve_all(analysis, &motion, history, go_on)?;
+            let warnings = single::noticed(analysis, on);
+            let noticed = solved.first().map(|solved| Summary::noticed(solved, &motion, &warnings));
+            return Ok((OnceLock::new(), Found::Solved(solved, noticed.unwrap_or_default())));
+        }
+        let analysis = analysis.clone();
+        let job = match on {
+            None => OpenJob::new(of.path(), analysis, None)?,
+            Some(LoadedMotion { loaded, sources }) => {
                 let loaded = loaded.clone();
                 ask()?;
                 let job = Job::new(analysis, loaded)?;
                 ask()?;
-                OpenJob { name: model.title(), job, sources: sources.clone() }
+                OpenJob { name: of.title(), job, sources: sources.clone() }
             }
         };
         ask()?;
-        let (outcome, summary) = job.run_while(floor_spectrum, go_on)?;
-        Ok(Response { job, outcome, summary, took: start.elapsed() })
+        let found = if check {
+            let (mut outcome, summary) = job.run_while(floor_spectrum, go_on)?;
+            if !history {
+                outcome.forget_history();
+            }
+            Found::Judged(Box::new((outcome, summary)))
+        } else {
+            let Job { analysis, motion, warnings, .. } = &job.job;
+            let solved = single::solve_all(analysis, motion, history, go_on)?;
+            let noticed = solved.first().map(|solved| Summary::noticed(solved, motion, warnings));
+            Found::Solved(solved, noticed.unwrap_or_default())
+        };
+        Ok((OnceLock::from(job), found))
     };
-    interruptible(py, work)?.map_err(|error| of_job(py, &error))
+    let (job, found) = interruptible(py, work)?.map_err(|error| of_job(py, &error))?;
+    let (model, motion) = (model.clone().unbind(), motion.map(|motion| motion.clone().unbind()));
+    Ok(Response { model, motion, job, found, summary: OnceLock::new(), took: start.elapsed() })
 }
 
 /// Units to show results in.
@@ -77,23 +109,117 @@ pub(crate) fn display_units(py: Python<'_>, name: &str) -> PyResult<DisplayUnits
 /// What came of one analysis.
 #[pyclass(module = "slipstick._core", frozen)]
 pub struct Response {
-    job: OpenJob,
-    outcome: Outcome,
-    summary: Summary,
+    model: Py<Model>,
+    motion: Option<Py<Motion>>,
+    /// Made of the two when it is asked for, where the analysis did without.
+    job: OnceLock<OpenJob>,
+    found: Found,
+    /// Of a response that is not judged, when it is asked for.
+    summary: OnceLock<Summary>,
     took: Duration,
 }
 
+/// What was asked for.
+enum Found {
+    /// Responses with their certificates.
+    Judged(Box<(Outcome, Summary)>),
+    /// Responses alone, at least one, and what is noticed.
+    Solved(Vec<Solved>, Vec<Notice>),
+}
+
 impl Response {
-    fn response_history(&self) -> Option<&History> {
-        self.outcome.nominal.response.history.as_ref()
+    fn response(&self) -> Option<&Answer> {
+        match &self.found {
+            Found::Judged(of) => Some(&of.0.nominal.response),
+            Found::Solved(solved, _) => solved.first().map(|solved| &solved.response),
+        }
     }
+
+    /// The history, if one was kept.
+    fn kept(&self) -> Option<&History> {
+        self.response()?.history.as_ref()
+    }
+
+    fn history(&self) -> PyResult<&History> {
+        self.kept().ok_or_else(|| without("history"))
+    }
+
+    /// The analysis and its motion.
+    fn job(&self) -> PyResult<&OpenJob> {
+        if let Some(job) = self.job.get() {
+            return Ok(job);
+        }
+        let of = self.model.get();
+        let motion = self.motion.as_ref().map(|motion| &motion.get().0);
+        let LoadedMotion { loaded, sources } = motion.ok_or_else(|| without("motion"))?.clone();
+        let job = Job::new(of.analysis.clone(), loaded);
+        let job = job.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+        Ok(self.job.get_or_init(|| OpenJob { name: of.title(), job, sources }))
+    }
+
+    /// The report of a response with history and certificate.
+    fn report<T>(&self, display: DisplayUnits, tell: impl FnOnce(&Report<'_>) -> T) -> PyResult<T> {
+        let Found::Judged(of) = &self.found else { return Err(without("check")) };
+        self.history()?;
+        let ((outcome, summary), open) = (&**of, self.job()?);
+        let loaded = &open.job.loaded;
+        let record = loaded.description.join("; ");
+        let toml = open.job.analysis.to_toml_with_motion();
+        let inputs = [InputText { path: &open.name, text: &toml }];
+        let paths: Vec<String> =
+            open.sources.iter().map(|file| Path::display(&file.path).to_string()).collect();
+        let files: Vec<FileNote<'_>> = open
+            .sources
+            .iter()
+            .zip(&paths)
+            .zip(&loaded.description)
+            .map(|((file, path), description)| FileNote { path, sha256: &file.sha256, description })
+            .collect();
+        let report = Report {
+            summary,
+            model: &open.job.analysis.model,
+            motion: &open.job.motion,
+            record: &record,
+            response: &outcome.nominal.response,
+            certificate: &outcome.nominal.certificate,
+            bounds: outcome
+                .bounds
+                .as_ref()
+                .map(|[lower, upper]| [&lower.response, &upper.response]),
+            floor_spectra: summary.floor_spectra.as_ref(),
+            inputs: &inputs,
+            files: &files,
+            command_line: "slipstick.run(model, motion)",
+            display,
+        };
+        Ok(tell(&report))
+    }
+
+    fn summary(&self) -> PyResult<&Summary> {
+        let solved = match &self.found {
+            Found::Judged(of) => return Ok(&of.1),
+            Found::Solved(solved, _) => solved,
+        };
+        if let Some(summary) = self.summary.get() {
+            return Ok(summary);
+        }
+        let OpenJob { name, job, .. } = self.job()?;
+        let made = Summary::of_solved(name, job, solved).ok_or_else(|| without("response"))?;
+        Ok(self.summary.get_or_init(|| made))
+    }
+}
+
+/// What was not asked for.
+fn without(what: &str) -> PyErr {
+    let found = "found one without";
+    PyValueError::new_err(format!("expected a response of run(..., {what}=True), {found}"))
 }
 
 #[pymethods]
 impl Response {
     /// The figures as the text that `slipstick run --json` prints.
-    fn _summary_json(&self) -> String {
-        self.summary.to_json()
+    fn _summary_json(&self) -> PyResult<String> {
+        Ok(self.summary()?.to_json())
     }
 
     /// Seconds of the work in Rust: opening or copying the motion, solving, certificate and figures.
@@ -104,7 +230,7 @@ impl Response {
     /// Columns of the history: one row a sample, or both sides of every event.
     fn _history<'py>(&self, py: Python<'py>, knots: bool) -> PyResult<Bound<'py, PyDict>> {
         let columns = PyDict::new(py);
-        let Some(history) = self.response_history() else { return Ok(columns) };
+        let (history, response) = (self.history()?, self.response());
         let all: Vec<usize>;
         let rows = if knots {
             all = (0..history.len()).collect();
@@ -112,45 +238,49 @@ impl Response {
         } else {
             &history.rows
         };
-        for (name, values) in self.outcome.nominal.response.columns(rows) {
+        for (name, values) in response.into_iter().flat_map(|response| response.columns(rows)) {
             columns.set_item(name, values.into_pyarray(py))?;
         }
         Ok(columns)
     }
 
     /// Mode of the slider at the knots: 0 stuck, 1 and −1 sliding.
-    fn _modes<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        let history = self.response_history();
-        let modes = history.map_or(&[][..], |history| &history.mode);
-        let width = history.map_or(1, |history| history.interfaces.max(1));
-        modes.iter().step_by(width).map(|mode| mode.sign()).collect::<Vec<_>>().into_pyarray(py)
+    fn _modes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let history = self.history()?;
+        let modes = history.mode.iter().step_by(history.interfaces.max(1));
+        Ok(modes.map(|mode| mode.sign()).collect::<Vec<_>>().into_pyarray(py))
     }
 
     /// Force of the whole slider at the knots in N, rising with the displacement.
-    fn _slider_force<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        let model = &self.job.job.analysis.model;
-        self.outcome.nominal.response.slider_force_n(model).into_pyarray(py)
+    fn _slider_force<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let model = &self.job()?.job.analysis.model;
+        let force = self.response().map(|response| response.slider_force_n(model));
+        Ok(force.unwrap_or_default().into_pyarray(py))
     }
 
     /// Static and kinetic friction in N under the weight, each towards +x and −x.
     fn _friction_limits(&self) -> [[f64; 2]; 2] {
-        let model = &self.job.job.analysis.model;
+        let model = &self.model.get().analysis.model;
         let normal_n = model.normal_n();
         [model.static_friction(), model.kinetic_friction()].map(|way| way.map(|mu| mu * normal_n))
     }
 
     /// The motion as it was read, without a tail.
     #[getter]
-    fn motion(&self) -> Motion {
-        Motion(LoadedMotion {
-            loaded: self.job.job.loaded.clone(),
-            sources: self.job.sources.clone(),
-        })
+    fn motion(&self, py: Python<'_>) -> PyResult<Py<Motion>> {
+        if let Some(motion) = &self.motion {
+            return Ok(motion.clone_ref(py));
+        }
+        let OpenJob { job, sources, .. } = self.job()?;
+        let (loaded, sources) = (job.loaded.clone(), sources.clone());
+        Py::new(py, Motion(LoadedMotion { loaded, sources }))
     }
 
     /// Energies at the knots in J.
     fn _energy<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let energy = self.outcome.nominal.certificate.energy();
+        let Found::Judged(of) = &self.found else { return Err(without("check")) };
+        self.history()?;
+        let energy = of.0.nominal.certificate.energy();
         let columns = PyDict::new(py);
         for (name, values) in [
             ("input_j", &energy.input_j),
@@ -166,7 +296,7 @@ impl Response {
 
     /// Events as (time in s, kind, direction, sliding displacement in m, interface).
     fn _events(&self) -> Vec<(f64, &'static str, f64, f64, String)> {
-        let events = &self.outcome.nominal.response.events;
+        let events = self.response().map_or(&[][..], |response| &response.events);
         events
             .iter()
             .map(|e| {
@@ -183,57 +313,38 @@ impl Response {
 
     /// The report as one page of HTML.
     fn _report_html(&self, py: Python<'_>, units: &str) -> PyResult<String> {
-        let display = display_units(py, units)?;
-        let (outcome, loaded) = (&self.outcome, &self.job.job.loaded);
-        let record = loaded.description.join("; ");
-        let toml = self.job.job.analysis.to_toml_with_motion();
-        let inputs = [InputText { path: &self.job.name, text: &toml }];
-        let paths: Vec<String> =
-            self.job.sources.iter().map(|file| Path::display(&file.path).to_string()).collect();
-        let files: Vec<FileNote<'_>> = self
-            .job
-            .sources
-            .iter()
-            .zip(&paths)
-            .zip(&loaded.description)
-            .map(|((file, path), description)| FileNote { path, sha256: &file.sha256, description })
-            .collect();
-        let report = Report {
-            summary: &self.summary,
-            model: &self.job.job.analysis.model,
-            motion: &self.job.job.motion,
-            record: &record,
-            response: &outcome.nominal.response,
-            certificate: &outcome.nominal.certificate,
-            bounds: outcome
-                .bounds
-                .as_ref()
-                .map(|[lower, upper]| [&lower.response, &upper.response]),
-            floor_spectra: self.summary.floor_spectra.as_ref(),
-            inputs: &inputs,
-            files: &files,
-            command_line: "slipstick.run(model, motion)",
-            display,
-        };
-        Ok(report.to_html())
+        self.report(display_units(py, units)?, |report| report.to_html())
+    }
+
+    /// The figures of the report as SVG by their names.
+    fn _figures(&self) -> PyResult<Vec<(&'static str, String)>> {
+        let svg = |figure: Drawn| (figure.id, figure.svg.as_str().to_owned());
+        self.report(DisplayUnits::Si, |report| figures::all(report).into_iter().map(svg).collect())
     }
 
     /// What makes its figures void, and all else that is noticed: kind, message and whether it is severe.
     fn _noticed(&self) -> Vec<(&'static str, &str, bool)> {
         let of = |notice: &'_ Notice| notice.severity() == Severity::Severe;
-        let notices = self.summary.warnings.iter().filter(|notice| !notice.is_note());
+        let noticed = match &self.found {
+            Found::Judged(of) => &of.1.warnings,
+            Found::Solved(_, noticed) => noticed,
+        };
+        let notices = noticed.iter().filter(|notice| !notice.is_note());
         notices.map(|notice| (notice.kind.name(), &*notice.message, of(notice))).collect()
     }
 
     /// Name of the model.
     #[getter]
-    fn name(&self) -> &str {
-        &self.job.name
+    fn name(&self) -> String {
+        self.job.get().map_or_else(|| self.model.get().title(), |open| open.name.clone())
     }
 
-    /// Whether the certificate holds; none of the stepwise method.
+    /// Whether the certificate holds; none of the stepwise method, and where it was not asked for.
     #[getter]
     fn holds(&self) -> Option<bool> {
-        self.summary.checks.holds
+        match &self.found {
+            Found::Judged(of) => of.1.checks.holds,
+            Found::Solved(..) => None,
+        }
     }
 }

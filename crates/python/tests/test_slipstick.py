@@ -461,13 +461,15 @@ def test_ida_and_fragility_are_those_of_the_command(tmp_path: Path) -> None:
 
 
 def test_keywords_are_the_fields_of_the_request() -> None:
-    functions = [ss.run, ss.suite, ss.spectrum, ss.ida, ss.fragility, ss.design, ss.compare]
+    functions = [ss.run, ss.suite, ss.spectrum, ss.sensitivity, ss.ida, ss.fragility, ss.design, ss.compare]
     functions += [ss.identify.cyclic, ss.identify.free_vibration, ss.identify.shaking_table]
-    what_goes_in = {"model", "models", "motion", "records", "second", "target", "source", "tests", "measured"}
+    what_goes_in = {"model", "models", "motion", "motions", "records", "second", "target", "source", "tests", "measured"}
+    what_is_kept = {"history", "check"}
     for function in functions:
         keywords = inspect.signature(function).parameters
         fields = {name: default for name, _, default, _ in _core.fields(function.__name__.replace("_", "-"))}
-        assert set(keywords) - what_goes_in - {"jobs", "progress"} == set(fields), function
+        beside = what_goes_in | what_is_kept | {"jobs", "progress"}
+        assert set(keywords) - beside == set(fields), function
         # Defaults stand in the core alone.
         for name in fields:
             assert keywords[name].default in (None, (), False, inspect.Parameter.empty), name

@@ -1,4 +1,5 @@
-//! What is told of many runs: histories over a suite, spectra, incremental dynamic analysis, fragility, design.
+//! What is told of many runs: histories over a suite, spectra, derivatives, incremental dynamic
+//! analysis, fragility, design.
 //!
 //! Each result is laid out once, as a [`Sheet`]: tables, figures, notes and JSON, from which the
 //! printed text, `result.json` and `report.html` come.
@@ -11,6 +12,7 @@ pub mod ida;
 pub mod key;
 pub(crate) mod lines;
 pub(crate) mod pairs;
+pub mod sensitivity;
 pub(crate) mod sheet;
 pub mod spectrum;
 

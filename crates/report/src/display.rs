@@ -107,6 +107,15 @@ impl DisplayUnits {
         Self::NAMES.into_iter().find(|(known, ..)| *known == name).map(|(_, system, _)| system)
     }
 
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        Self::NAMES
+            .into_iter()
+            .find(|(_, system, _)| *system == self)
+            .map_or("si", |(name, ..)| name)
+    }
+
     /// The unit for values of a quantity up to `largest_si` in size.
     ///
     /// Only SI chooses by size; the other systems have one unit a quantity.

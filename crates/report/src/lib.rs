@@ -39,6 +39,7 @@
 pub mod assessment;
 pub mod describe;
 pub mod display;
+pub mod examples;
 pub mod figures;
 pub mod html;
 pub mod json;

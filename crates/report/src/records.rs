@@ -8,4 +8,7 @@ mod spectra;
 pub use figures::{Histories, Husid, figures, spectrum_figures};
 pub use info::{ChannelInfo, info_json, info_table};
 pub use page::page;
-pub use spectra::{ChannelFourier, ChannelSpectrum, fourier_csv, spectra_csv, spectra_json};
+pub use spectra::{
+    ChannelFourier, ChannelSpectrum, fourier_csv, fourier_table, spectra_csv, spectra_json,
+    spectrum_table,
+};

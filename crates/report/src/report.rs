@@ -10,6 +10,21 @@ use crate::display::DisplayUnits;
 use crate::html;
 use crate::summary::Summary;
 
+/// A call of the command with these words, with quotes where the shell needs them.
+#[must_use]
+pub fn command_line(words: impl IntoIterator<Item = String>) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,+:@%".contains(c);
+    let quoted = |word: String| {
+        if !word.is_empty() && word.chars().all(plain) {
+            word
+        } else {
+            format!("'{}'", word.replace('\'', r"'\''"))
+        }
+    };
+    let words = words.into_iter().map(quoted);
+    core::iter::once("slipstick".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
+}
+
 /// Everything that `report.html` shows. Nothing in it is trusted: all of it is escaped.
 #[derive(Clone, Copy, Debug)]
 pub struct Report<'a> {

@@ -3,7 +3,7 @@
 pub(crate) mod keys;
 mod warnings;
 
-use slipstick::assessment::single::{FloorSpectra, Job, Judged, Outcome};
+use slipstick::assessment::single::{FloorSpectra, Job, Judged, Outcome, Solved};
 use slipstick::check::{Certificate, ClosestCall};
 use slipstick::input::Names;
 use slipstick::model::Model;
@@ -221,6 +221,38 @@ impl Summary {
             None => summary,
         };
         Self { floor_spectra: outcome.floor_spectra.clone(), ..summary }
+    }
+
+    /// All that a reader must know of a response to a motion with its tail, which is not judged; `warnings` are
+    /// those of model and motion.
+    #[must_use]
+    pub fn noticed(solved: &Solved, motion: &GroundMotion, warnings: &[Notice]) -> Vec<Notice> {
+        let Solved { friction_factor, model, response } = solved;
+        warnings::assemble(&SummaryInputs {
+            name: "",
+            model,
+            motion,
+            record: Figures::default(),
+            response,
+            certificate: None,
+            friction_factor: *friction_factor,
+            warnings,
+        })
+    }
+
+    /// The figures of responses to a job that are not judged: nominal, and perhaps lower and upper.
+    ///
+    /// `None` without a response.
+    #[must_use]
+    pub fn of_solved(name: &str, job: &Job, solved: &[Solved]) -> Option<Self> {
+        let one = |Solved { friction_factor, model, response }: &Solved| {
+            Self::of_response(name, job, (model, *friction_factor), response, None)
+        };
+        let summary = one(solved.first()?);
+        Some(match solved {
+            [_, lower, upper] => summary.with_bounds(one(lower), one(upper)),
+            _ => summary,
+        })
     }
 
     /// The same with the runs with lower- and upper-bound friction beside it.

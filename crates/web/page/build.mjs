@@ -1,4 +1,4 @@
-// Puts the page together: `node build.mjs OUT`. The module's bindings are in `pkg`.
+// Puts the page together: `node build.mjs OUT`. The bindings of the modules are in `pkg`.
 
 import { createHash } from "node:crypto";
 import { mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
@@ -39,7 +39,12 @@ const style = `${read("node_modules/uplot/dist/uPlot.min.css")}body{margin:0}\n$
   .replace(/\/\*[^]*?\*\//g, "")
   .replace(/\s*\n\s*/g, "\n");
 const wasm = read("pkg/slipstick_web_bg.wasm");
-const [app, worker, single] = await Promise.all([bundle("folder.ts"), bundle("worker.ts"), bundle("single.ts")]);
+const firstWasm = read("pkg/slipstick_first_bg.wasm");
+// A module by itself: what it brings with it stands in it.
+const { first } = await import(`data:text/javascript;base64,${Buffer.from(await bundle("painted.ts", { format: "esm" })).toString("base64")}`);
+const bindings = join(here, "pkg/slipstick_first.js");
+const ofFirst = { name: "first", setup: (build) => build.onResolve({ filter: /\/pkg\/slipstick_web\.js$/ }, () => ({ path: bindings })) };
+const [app, worker, firstWorker, single] = await Promise.all([bundle("folder.ts"), bundle("worker.ts"), bundle("worker.ts", { plugins: [ofFirst] }), bundle("single.ts")]);
 
 rmSync(out, { recursive: true, force: true });
 mkdirSync(out, { recursive: true });
@@ -48,6 +53,9 @@ const files = {
   "app.css": style,
   "app.js": app,
   "worker.js": worker,
+  "first.json": first(wasm),
+  "first.js": firstWorker,
+  "first.wasm": firstWasm,
   "slipstick.wasm": wasm,
   "icon.svg": read("icon.svg"),
   "manifest.webmanifest": JSON.stringify({
@@ -87,4 +95,6 @@ const zipped = Object.values(files).reduce((sum, data) => sum + gzipSync(data, {
 writeFileSync(join(out, "slipstick.html"), whole);
 
 const kB = (bytes) => `${Math.round(bytes / 1000)} kB`;
-console.log(`folder ${kB(zipped)} gzipped (module ${kB(gzipSync(wasm, { level: 9 }).length)}), slipstick.html ${kB(whole.length)}`);
+const early = ["index.html", "app.css", "app.js", "first.json", "icon.svg", "manifest.webmanifest"];
+const before = early.reduce((sum, name) => sum + gzipSync(files[name], { level: 9 }).length, 0);
+console.log(`folder ${kB(zipped)} gzipped (before the first picture ${kB(before)}, first module ${kB(gzipSync(firstWasm, { level: 9 }).length)}, module ${kB(gzipSync(wasm, { level: 9 }).length)}), slipstick.html ${kB(whole.length)}`);

@@ -2,8 +2,12 @@
 
 use std::fmt::Display;
 
+#[cfg(feature = "whole")]
 use slipstick::assessment::AssessmentError;
-use slipstick::error::{ChoiceError, InputError};
+#[cfg(feature = "whole")]
+use slipstick::error::ChoiceError;
+use slipstick::error::InputError;
+#[cfg(feature = "whole")]
 use slipstick::requests::Door;
 use slipstick_report::json::Json;
 use wasm_bindgen::JsValue;
@@ -30,7 +34,10 @@ impl Failure {
         let at = || (place.source_name.clone(), [units(place.span.start), units(place.span.end)]);
         Self { message: error.to_string(), place: known.then(at) }
     }
+}
 
+#[cfg(feature = "whole")]
+impl Failure {
     /// An error of an analysis over a suite.
     pub fn assessment(error: &AssessmentError, text: &str) -> Self {
         match error {

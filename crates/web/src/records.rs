@@ -4,8 +4,17 @@ use slipstick::assessment::single::described;
 use slipstick::error::RecordError;
 use slipstick::input::loaded::{Components, LoadError, Loaded, Wanted};
 use slipstick::input::{self, Analysis, MotionSource, Override, RecordSource};
-use slipstick::record::{self, Options, Quantity, Record, Sampling, Units};
+// Any record by the whole module, columns of numbers by the other: those that the page brings with it.
+#[cfg(feature = "whole")]
+use slipstick::record::read;
+#[cfg(not(feature = "whole"))]
+use slipstick::record::read_delimited as read;
+use slipstick::record::{Options, Record};
+#[cfg(feature = "whole")]
+use slipstick::record::{Quantity, Sampling, Units};
+#[cfg(feature = "whole")]
 use slipstick::units::{Dimension, parse_quantity};
+#[cfg(feature = "whole")]
 use slipstick_report::json::Json;
 
 use crate::failure::Failure;
@@ -60,7 +69,7 @@ impl Records {
         let position = self.position(path)?;
         let file = &mut self.0[position];
         if file.read.as_ref().is_none_or(|(of, _)| of != options) {
-            match record::read(&file.name, &file.bytes, options) {
+            match read(&file.name, &file.bytes, options) {
                 Ok(record) => file.read = Some((options.clone(), record)),
                 Err(error) => return Some(Err(error)),
             }
@@ -130,7 +139,10 @@ impl Records {
             }
         })
     }
+}
 
+#[cfg(feature = "whole")]
+impl Records {
     /// What is in a file: `{layout, plain, channels}`, plain where it needs no more to be a motion.
     pub fn inspect(&mut self, name: &str, units: &str, dt: &str) -> Result<Json, Failure> {
         let options = options(units, dt)?;
@@ -163,6 +175,7 @@ impl Records {
 }
 
 /// Options from what a person writes; nothing where the text is empty.
+#[cfg(feature = "whole")]
 pub fn options(units: &str, dt: &str) -> Result<Options, Failure> {
     let units = match units.trim() {
         "" => None,

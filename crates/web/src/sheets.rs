@@ -1,31 +1,37 @@
 //! Analyses over a suite and studies, laid out as the command lays them out.
 
+use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use slipstick::assessment::models::Models;
 use slipstick::assessment::suite::Suite;
 use slipstick::input::loaded::{Components, Loaded, Wanted};
 use slipstick::input::plan::Plan;
 use slipstick::input::{Analysis, MotionSource, Override};
 use slipstick::notice::Notice;
-use slipstick::record::Options;
+use slipstick::record::{self, Options};
 use slipstick::requests::{Answer, Door, Field, Kind, On, Request, Results, Runs, Takes};
 use slipstick::response::Method;
 use slipstick::study::engine::Engine;
 use slipstick::study::summary::{Rows, Take};
-use slipstick::study::{Record, Study};
+use slipstick::study::{Case, Record, Study};
+use slipstick::table::Table;
 use slipstick_report::DisplayUnits;
+use slipstick_report::assessment::answer::Tabled;
 use slipstick_report::assessment::{Sheet, Went, answer};
 use slipstick_report::json::Json;
 use slipstick_report::study::StudyReport;
-use slipstick_report::{FileNote, InputText};
+use slipstick_report::{FileNote, InputText, report};
 use wasm_bindgen::prelude::*;
 
-use crate::answer::drawings;
 use crate::failure::Failure;
+use crate::judged::drawings;
 use crate::records::Records;
-use crate::session::{MODEL, parse, texts};
+use crate::runs;
+use crate::session::{MODEL, UNNAMED, parse, texts};
+use crate::whole::files_of_motion;
 
 #[wasm_bindgen]
 extern "C" {
@@ -40,11 +46,13 @@ pub struct Page {
     state: String,
     html: String,
     json: String,
+    tables: String,
 }
 
 #[wasm_bindgen]
 impl Page {
-    /// What the page shows: `{kind, line, verdict, tables, notes, warnings, figures, method}`.
+    /// What the page shows: `{kind, line, verdict, tables, notes, warnings, figures, method}`, and what makes it
+    /// again: `commands`, a line each, and `records`, `{path, text, file}` each, without a text where it is the file.
     #[must_use]
     pub fn state(&self) -> String {
         self.state.clone()
@@ -61,10 +69,22 @@ impl Page {
     pub fn json(&self) -> String {
         self.json.clone()
     }
+
+    /// The command's tables: `[{name, columns: [{name, title, unit: {in_si, symbol}, values}]}]`, in SI.
+    #[must_use]
+    pub fn tables(&self) -> String {
+        self.tables.clone()
+    }
 }
 
 impl Page {
-    fn new(sheet: &Sheet, inputs: &[InputText<'_>], files: &[FileNote<'_>], command: &str) -> Self {
+    /// `exported` where the command calls what it is of otherwise.
+    fn new(
+        (sheet, exported): (&Sheet, Option<&Sheet>),
+        inputs: &[InputText<'_>],
+        files: &[FileNote<'_>],
+        again: &Again,
+    ) -> Self {
         let table = |(heading, rows): &(String, Vec<Vec<String>>)| {
             let rows = rows.iter().map(|row| texts(row.iter().map(String::as_str)));
             Json::Object(vec![
@@ -81,6 +101,11 @@ impl Page {
                 ("message", Json::Text(sheet.display.sentence(&warning.message))),
             ])
         };
+        let record = |(path, text, file): &(String, Option<String>, String)| {
+            let text = text.as_deref().map_or(Json::Null, Json::from);
+            let (path, file) = (path.as_str().into(), file.as_str().into());
+            Json::Object(vec![("path", path), ("text", text), ("file", file)])
+        };
         let list = |all: &[String]| texts(all.iter().map(String::as_str));
         let first = sheet.first.as_ref().map(|(name, sentence)| format!("{name}: {sentence}"));
         let state = Json::Object(vec![
@@ -93,13 +118,28 @@ impl Page {
             ("notes", list(&sheet.notes)),
             ("method", list(&sheet.method)),
             ("figures", drawings(&sheet.figures)),
+            ("commands", texts(again.commands.iter().map(String::as_str))),
+            ("records", Json::List(again.records.iter().map(record).collect())),
         ]);
-        let went = Went { command_line: command, files, inputs };
-        Self { state: state.to_pretty(), html: sheet.to_html(&went), json: sheet.to_json() }
+        let command_line = again.commands.last().map_or("", String::as_str);
+        let (went, out) = (Went { command_line, files, inputs }, exported.unwrap_or(sheet));
+        let tables = again.tables.to_pretty();
+        Self { state: state.to_pretty(), html: out.to_html(&went), json: out.to_json(), tables }
     }
 }
 
+/// What makes a result again beside `model.toml`.
+struct Again {
+    /// The commands, one after the other.
+    commands: Vec<String>,
+    /// The records: their paths, their texts where those are not the files that were dropped, the files.
+    records: Vec<(String, Option<String>, String)>,
+    /// The tables of its runs.
+    tables: Json,
+}
+
 /// A record, and what its file does not say; empty where it does.
+#[derive(Clone, Copy)]
 struct Asks<'a> {
     name: &'a str,
     units: &'a str,
@@ -133,30 +173,90 @@ impl<'a> Settings<'a> {
         asked.map_err(|error| Failure::choice(&error))
     }
 
+    /// What all records leave unsaid alike, as options of the command; none where they differ: then each file
+    /// that leaves something unsaid is taken as columns that say it.
+    fn unsaid(&self) -> Option<Vec<(&'static str, &'a str)>> {
+        let mut all = self.records().map(|Asks { units, dt, channel, .. }| [units, dt, channel]);
+        let first = all.next().unwrap_or_default();
+        let options = ["units", "dt", "channel"].into_iter().zip(first);
+        all.all(|said| said == first)
+            .then(|| options.filter(|(_, text)| !text.is_empty()).collect())
+    }
+
+    /// The path of a record beside the command.
+    fn path(&self, asks: Asks<'a>) -> String {
+        if self.unsaid().is_some() || !asks.leaves_unsaid() {
+            return asks.name.to_owned();
+        }
+        let stem = asks.name.rsplit_once('.').map_or(asks.name, |(stem, _)| stem);
+        format!("{stem}.csv")
+    }
+
     /// What was asked, as the command takes it.
-    fn command(&self, what: &str) -> String {
-        let option = |(name, text): (&str, &str)| {
-            format!(" --{name} {:?}", text.split('\n').next().unwrap_or(""))
+    fn commands(&self, what: Kind, display: DisplayUnits) -> Vec<String> {
+        let kinds = requests(what);
+        let command = |(i, kind): (usize, &Kind)| {
+            let name = if *kind == Kind::Suite { Kind::Run } else { *kind }.name();
+            let mut words = vec![name.to_owned()];
+            if i == 0 {
+                words.push(MODEL.to_owned());
+                let paths: Vec<String> = self.records().map(|asks| self.path(asks)).collect();
+                if !paths.is_empty() {
+                    words.extend(core::iter::once("--records".to_owned()).chain(paths));
+                }
+                for (name, text) in self.unsaid().unwrap_or_default() {
+                    words.extend([format!("--{name}"), text.to_owned()]);
+                }
+            } else {
+                words.push(kinds[i - 1].name().to_owned());
+            }
+            for (name, text) in self.pairs() {
+                let Some(field) = kind.fields().iter().find(|field| field.name == name) else {
+                    continue;
+                };
+                words.push(format!("--{name}"));
+                words.extend((field.takes != Takes::Flag).then(|| text.to_owned()));
+            }
+            let last = i + 1 == kinds.len();
+            if display != DisplayUnits::default() {
+                words.extend(["--display-units".to_owned(), display.name().to_owned()]);
+            }
+            words.extend(["--out".to_owned(), if last { "out" } else { name }.to_owned()]);
+            report::command_line(words)
         };
-        let what = if what == Kind::Suite.name() { Kind::Run.name() } else { what };
-        let options: String = self.pairs().map(option).collect();
-        format!("slipstick {what} {MODEL}{options}")
+        kinds.iter().enumerate().map(command).collect()
+    }
+}
+
+impl Asks<'_> {
+    /// Whether its file does not say all of itself.
+    fn leaves_unsaid(&self) -> bool {
+        ![self.units, self.dt, self.channel].concat().is_empty()
     }
 }
 
 /// The requests that a tab makes, one after the other.
-fn requests(what: &str) -> Vec<Kind> {
-    match Kind::of_name(what) {
+fn requests(what: Kind) -> Vec<Kind> {
+    match what {
         // A fragility is fitted to the analysis that it asks for.
-        Some(Kind::Fragility) => vec![Kind::Ida, Kind::Fragility],
-        kind => kind.into_iter().collect(),
+        Kind::Fragility => vec![Kind::Ida, Kind::Fragility],
+        kind => vec![kind],
     }
 }
 
 /// The form of an analysis: what it is, and its fields.
-pub fn form(what: &str, model: &Analysis) -> Json {
+pub fn form(
+    what: &str,
+    text: &str,
+    set: &[Override],
+    display: DisplayUnits,
+) -> Result<Json, Failure> {
+    let model = &parse(text, set)?;
+    let models = Models::new(MODEL, text, set, &[], false);
+    let demands = models.map_err(|error| Failure::assessment(&error, text))?.columns();
     let mut fields: Vec<&Field> = Vec::new();
-    for field in requests(what).into_iter().flat_map(|kind| kind.offered(Door::Page)) {
+    let kinds = Kind::of_name(what).map_or_else(Vec::new, requests);
+    for field in kinds.into_iter().flat_map(|kind| kind.offered(Door::Page)) {
         if fields.iter().all(|known| known.name != field.name) {
             fields.push(field);
         }
@@ -178,10 +278,11 @@ pub fn form(what: &str, model: &Analysis) -> Json {
             ("about", field.about.into()),
         ])
     };
-    Json::Object(vec![
+    Ok(Json::Object(vec![
         ("about", Kind::of_name(what).map_or("", Kind::about).into()),
         ("fields", Json::List(fields.iter().map(shown).collect())),
-    ])
+        ("demands", runs::demands(&demands, display)),
+    ]))
 }
 
 /// Runs something with an engine that tells the page of its progress.
@@ -208,6 +309,25 @@ struct Job<'a> {
     name: String,
     analysis: Analysis,
     suite: Suite,
+    taken: Vec<Taken>,
+}
+
+/// A file of the suite as it was read.
+struct Taken {
+    path: String,
+    /// What it was dropped as.
+    file: String,
+    /// Where that is not the file that was dropped.
+    text: Option<String>,
+    sha256: String,
+    /// What was understood of it.
+    description: String,
+}
+
+impl Taken {
+    fn told(&self) -> (String, Option<String>, String) {
+        (self.path.clone(), self.text.clone(), self.file.clone())
+    }
 }
 
 impl<'a> Job<'a> {
@@ -219,9 +339,9 @@ impl<'a> Job<'a> {
             let error = analysis.error_at("analysis.method", expected, "\"stepwise\"");
             return Err(Failure::input(&error, text));
         }
-        let suite = suite(records, &settings, &analysis, text)?;
-        let name = analysis.name.clone().unwrap_or_else(|| "Model".to_owned());
-        Ok(Self { settings, text, set, name, analysis, suite })
+        let (suite, taken) = suite(records, &settings, &analysis, text)?;
+        let name = analysis.name.clone().unwrap_or_else(|| UNNAMED.to_owned());
+        Ok(Self { settings, text, set, name, analysis, suite, taken })
     }
 
     fn on(&self) -> On<'_> {
@@ -235,20 +355,25 @@ impl<'a> Job<'a> {
         }
     }
 
-    fn answer(&self, kind: Kind, engine: &Engine<'_>) -> Result<Answer, Failure> {
+    /// The answer; of a fragility behind the answer that it is fitted to.
+    fn answer(&self, kind: Kind, engine: &Engine<'_>) -> Result<(Option<Answer>, Answer), Failure> {
         let (on, settings) = (self.on(), &self.settings);
         let failed = |error| Failure::assessment(&error, self.text);
         match kind {
             // The incremental dynamic analysis, and the curve that fits it.
             Kind::Fragility => {
                 let ida = settings.asked(Kind::Ida)?.run(&on, engine).map_err(failed)?;
-                let Results::Ida { limit, run, .. } = &ida.found else { return Ok(ida) };
+                let Results::Ida { limit, run, .. } = &ida.found else { return Ok((None, ida)) };
                 let source = "the incremental dynamic analysis";
                 let runs = Runs { name: &self.name, source, table: &run.rows, limit: *limit };
-                settings.asked(kind)?.fit(&runs, engine).map_err(failed)
+                let curve = settings.asked(kind)?.fit(&runs, engine).map_err(failed)?;
+                Ok((Some(ida), curve))
             }
-            Kind::Suite => settings.asked(kind)?.suite(&[on], None, engine).map_err(failed),
-            kind => settings.asked(kind)?.run(&on, engine).map_err(failed),
+            Kind::Suite => {
+                let answer = settings.asked(kind)?.suite(&[on], None, engine).map_err(failed)?;
+                Ok((None, answer))
+            }
+            kind => Ok((None, settings.asked(kind)?.run(&on, engine).map_err(failed)?)),
         }
     }
 
@@ -276,8 +401,23 @@ pub fn plan(
     text: &str,
     options: &[String],
 ) -> Result<String, Failure> {
-    let kind = requests(what).into_iter().next().ok_or_else(|| unknown(what))?;
-    Job::new(records, text, options)?.plan(kind)
+    let kind = Kind::of_name(what).ok_or_else(|| unknown(what))?;
+    let job = Job::new(records, text, options)?;
+    // A plan says all its runs beforehand; it must not be another analysis than the one that the page shows.
+    let follow = match requests(kind)[0] {
+        Kind::Design => Some("the front is run again with the bounds of friction"),
+        Kind::Ida if job.settings.pairs().all(|(name, _)| name != "scale-to") => {
+            Some("the levels are hunted, record by record")
+        }
+        _ => None,
+    };
+    match follow {
+        Some(why) => Err(Failure::of(format!(
+            "Plan: expected an analysis whose runs are known beforehand, but {why}. Take \
+             \"Everything (ZIP)\" beside a result: its command repeats it"
+        ))),
+        None => job.plan(requests(kind)[0]),
+    }
 }
 
 fn unknown(what: &str) -> Failure {
@@ -294,43 +434,101 @@ pub fn assess(
 ) -> Result<Page, Failure> {
     let kind = Kind::of_name(what).ok_or_else(|| unknown(what))?;
     let job = Job::new(records, text, options)?;
-    let answer = followed(|engine| job.answer(kind, engine))?;
+    let (of, answer) = followed(|engine| job.answer(kind, engine))?;
     let sheet = answer::sheet(&answer, display);
+    // The command fits a fragility to a folder, by whose name it calls it.
+    let exported = (kind == Kind::Fragility).then(|| {
+        let name = Kind::Ida.name().to_owned();
+        answer::sheet(&Answer { name, ..answer.clone() }, display)
+    });
+    let tabled: Vec<Tabled> =
+        of.into_iter().chain(core::iter::once(answer)).flat_map(answer::tables).collect();
     let inputs = [InputText { path: MODEL, text }];
-    let hash =
-        |asks: Asks<'_>| Some((asks.name.to_owned(), crate::sha256(records.bytes(asks.name)?)));
-    let hashes: Vec<(String, String)> = job.settings.records().filter_map(hash).collect();
-    let files: Vec<FileNote> = hashes
-        .iter()
-        .map(|(path, sha256)| FileNote { path, sha256, description: "record" })
-        .collect();
-    Ok(Page::new(&sheet, &inputs, &files, &job.settings.command(what)))
+    let sha256 = crate::sha256(text.as_bytes());
+    let mut files = vec![FileNote { path: MODEL, sha256: &sha256, description: "model" }];
+    files.extend(job.taken.iter().map(|taken| FileNote {
+        path: &taken.path,
+        sha256: &taken.sha256,
+        description: &taken.description,
+    }));
+    let again = Again {
+        commands: job.settings.commands(kind, display),
+        records: job.taken.iter().map(Taken::told).collect(),
+        tables: runs::tables(&tabled, display),
+    };
+    Ok(Page::new((&sheet, exported.as_ref()), &inputs, &files, &again))
 }
 
-/// The records that were asked for, else the model's own motion.
+/// The records that were asked for, else the model's own motion; the files of either.
 fn suite(
     records: &mut Records,
     settings: &Settings<'_>,
     analysis: &Analysis,
     text: &str,
-) -> Result<Suite, Failure> {
-    let mut read = Vec::new();
-    for Asks { name, units, dt, channel } in settings.records() {
+) -> Result<(Suite, Vec<Taken>), Failure> {
+    let (mut read, mut taken) = (Vec::new(), Vec::new());
+    let alike = settings.unsaid().is_some();
+    for asks in settings.records() {
+        let Asks { name, units, dt, channel } = asks;
         let options = crate::records::options(units, dt)?;
         let channel = Some(channel).filter(|channel| !channel.is_empty());
-        let loaded = recorded(records, name, &options, (channel, None))?;
-        let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
-        let stem = stem.rsplit('/').next().unwrap_or(stem);
-        read.push((stem.to_owned(), loaded));
+        let path = settings.path(asks);
+        let mut loaded = recorded(records, name, &options, (channel, None))?;
+        let mut written = None;
+        if !alike && asks.leaves_unsaid() {
+            let csv = as_columns(records, name, &options, &loaded.channel)?;
+            let record = record::read(&path, csv.as_bytes(), &Options::default());
+            let record = record.map_err(Failure::of)?;
+            let wanted = Wanted { record: &record, channel: None };
+            loaded =
+                Loaded::recorded(wanted, None).map_err(|e| Failure::of(format!("{path}: {e}")))?;
+            written = Some(csv);
+        }
+        let bytes = written.as_deref().map(str::as_bytes).or_else(|| records.bytes(name));
+        let sha256 = bytes.map_or_else(String::new, crate::sha256);
+        let description = loaded.description.first().cloned().unwrap_or_default();
+        let file = name.to_owned();
+        taken.push(Taken { path: path.clone(), file, text: written, sha256, description });
+        read.push((path, loaded));
     }
     let made = read.is_empty() && !matches!(analysis.motion, Some(MotionSource::Record(_)));
     if read.is_empty() {
         let one = analysis.in_one_direction("a suite of the page has");
         one.map_err(|error| Failure::input(&error, text))?;
         let loaded = records.motion(analysis, text)?;
+        let files = files_of_motion(records, analysis).into_iter().zip(&loaded.description);
+        taken = files
+            .map(|((path, sha256), description)| {
+                let (file, description) = (path.clone(), description.clone());
+                Taken { path, file, text: None, sha256, description }
+            })
+            .collect();
         read.push((loaded.description.join("; "), loaded));
+    } else {
+        // A record is called by the stem of its file, by its path where stems repeat.
+        let stem = |path: &String| {
+            let name = path.rsplit('/').next().unwrap_or(path);
+            name.rsplit_once('.').map_or(name, |(stem, _)| stem).to_owned()
+        };
+        let stems: BTreeSet<String> = read.iter().map(|(path, _)| stem(path)).collect();
+        if stems.len() == read.len() {
+            read.iter_mut().for_each(|(path, _)| *path = stem(path));
+        }
     }
-    Ok(Suite::of(read, made))
+    Ok((Suite::of(read, made), taken))
+}
+
+/// A channel of a record as columns that say all of themselves.
+fn as_columns(
+    records: &mut Records,
+    name: &str,
+    options: &Options,
+    channel: &str,
+) -> Result<String, Failure> {
+    let record = read(records, name, options)?;
+    let channel =
+        record.channel(channel).ok_or_else(|| Failure::of(format!("{name}: no channel")))?;
+    record::write_csv(channel).map_err(Failure::of)
 }
 
 /// A record as it is, perhaps with a vertical motion and its factor; what files state themselves needs no
@@ -351,7 +549,7 @@ fn recorded(
     loaded.map_err(|error| Failure::of(format!("{name}: {error}")))
 }
 
-fn read<'a>(
+pub(crate) fn read<'a>(
     records: &'a mut Records,
     name: &str,
     options: &Options,
@@ -414,6 +612,52 @@ impl Planned {
         Ok(numbers)
     }
 
+    /// The runs as a table.
+    fn table(&self, rows: &[f64]) -> Tabled {
+        let rows: Vec<&[f64]> = rows.chunks_exact(self.width()).collect();
+        let cases: Vec<_> =
+            (0..rows.len() as u64).map(|run| self.study.cases().case(run)).collect();
+        let record = |case: &Case| match self.study.records().get(case.record as usize) {
+            Some(record) => record.name.clone(),
+            None => self.study.made_motion().to_owned(),
+        };
+        let level = |case: &Case| self.study.level(case.level).unwrap_or(f64::NAN);
+        let mut table = Table::default();
+        table.numbers("run", "", (0..rows.len()).map(|run| run as f64).collect());
+        table.texts("record", cases.iter().map(record).collect());
+        if self.study.has_bounds() {
+            let bound = |case: &Case| self.study.bound(*case).name.to_owned();
+            table.texts("friction", cases.iter().map(bound).collect());
+        }
+        table.numbers("level", self.study.level_unit(), cases.iter().map(level).collect());
+        for (i, column) in self.study.shape().columns().iter().enumerate() {
+            table.numbers(
+                &column.name(),
+                column.unit(),
+                rows.iter().map(|row| row[1 + i]).collect(),
+            );
+        }
+        Tabled { name: "runs", forms: &[], table }
+    }
+
+    /// What makes a run by itself: `{record, scale, friction, set: [[path, value]]}`, without a record where the motion is
+    /// made.
+    pub fn run(&self, run: u64) -> Result<Json, Failure> {
+        let case = self.study.cases().case(run.min(self.study.runs().saturating_sub(1)));
+        let set = self.study.overrides(case).map_err(|error| Failure::input(&error, &self.text))?;
+        let pair = |text: &String| {
+            let (path, value) = text.split_once('=').unwrap_or((text, ""));
+            texts([path, value].into_iter())
+        };
+        let record = self.study.records().get(case.record as usize);
+        Ok(Json::Object(vec![
+            ("record", record.map_or(Json::Null, |record| record.name.as_str().into())),
+            ("scale", self.study.factor(case).into()),
+            ("friction", self.study.bound(case).name.into()),
+            ("set", Json::List(set.iter().map(pair).collect())),
+        ]))
+    }
+
     /// What all its rows tell.
     pub fn page(&self, rows: &[f64], display: DisplayUnits) -> Result<Page, Failure> {
         let (expected, found) = (self.study.runs() as usize * self.width(), rows.len());
@@ -433,7 +677,7 @@ impl Planned {
         let warnings = |_: &mut dyn FnMut(u64, &str)| Ok(());
         let passes = Rows { solved: &solved, demand: &demand, warnings: &warnings };
         let summary = self.study.summary(&self.name, &passes, &Engine::unwatched());
-        let report = StudyReport {
+        let study = StudyReport {
             study: &self.study,
             summary: &summary.map_err(Failure::of)?,
             checked: 0,
@@ -444,7 +688,11 @@ impl Planned {
             InputText { path: PLAN, text: &self.plan },
             InputText { path: MODEL, text: &self.text },
         ];
-        Ok(Page::new(&report.sheet(), &inputs, &[], "slipstick study plan.toml"))
+        let command = ["study", PLAN, "--report", "--out", "out"].map(str::to_owned);
+        let commands = vec![report::command_line(command)];
+        let tables = runs::tables(&[self.table(rows)], display);
+        let again = Again { commands, records: Vec::new(), tables };
+        Ok(Page::new((&study.sheet(), None), &inputs, &[], &again))
     }
 }
 

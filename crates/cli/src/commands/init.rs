@@ -3,33 +3,17 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use super::tank;
-use crate::args::{Example, InitArgs};
-use crate::failure::{Failure, say};
+use clap::ValueEnum;
+use slipstick_report::examples;
 
-const BLOCK: &str = include_str!("../../models/block.toml");
-const MOCK_UP: &str = include_str!("../../models/mock-up.toml");
-const FRAME: &str = include_str!("../../models/frame.toml");
-const STOP: &str = include_str!("../../models/stop.toml");
-const DOUBLE_PENDULUM: &str = include_str!("../../models/double-pendulum.toml");
-const TRIPLE_PENDULUM: &str = include_str!("../../models/triple-pendulum.toml");
-const CONTENTS: &str = include_str!("../../models/contents.toml");
-const STRUCTURE: &str = include_str!("../../models/structure.toml");
+use crate::args::InitArgs;
+use crate::failure::{Failure, say};
 
 /// Writes `NAME.toml` into the working folder.
 pub fn init(args: &InitArgs) -> Result<ExitCode, Failure> {
     let stem = args.name.strip_suffix(".toml").unwrap_or(&args.name);
-    let text = match args.example {
-        Example::Block => BLOCK,
-        Example::MockUp => MOCK_UP,
-        Example::Frame => FRAME,
-        Example::Stop => STOP,
-        Example::DoublePendulum => DOUBLE_PENDULUM,
-        Example::TriplePendulum => TRIPLE_PENDULUM,
-        Example::Contents => CONTENTS,
-        Example::Structure => STRUCTURE,
-        Example::TankSloshing => &tank::example()?,
-    };
+    let example = args.example.to_possible_value();
+    let text = example.and_then(|value| examples::text(value.get_name())).unwrap_or_default();
     let path = PathBuf::from(format!("{stem}.toml"));
     let nameless = Path::new(stem).file_name().is_none() || stem.ends_with(['/', '\\']);
     if nameless || stem == "-" {

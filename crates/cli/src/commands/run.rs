@@ -15,7 +15,7 @@ use slipstick_files::{
     FileError, OpenJob, OutputFolder, RecordRequest, events_csv, history_csv, modes_beside,
     read_at_most, record_path,
 };
-use slipstick_report::{FileNote, InputText, Report, Summary, opensees, table};
+use slipstick_report::{FileNote, InputText, Report, Summary, opensees, report, table};
 
 use super::histories::histories;
 use crate::args::{RunArgs, quantity};
@@ -289,16 +289,8 @@ fn write_files(
 
 /// The command as it was typed, with quotes where the shell needs them.
 pub fn command_line() -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,+:@%".contains(c);
-    let quoted = |argument: String| {
-        if !argument.is_empty() && argument.chars().all(plain) {
-            argument
-        } else {
-            format!("'{}'", argument.replace('\'', r"'\''"))
-        }
-    };
-    let arguments = std::env::args_os().skip(1).map(|a| quoted(a.to_string_lossy().into_owned()));
-    std::iter::once("slipstick".to_owned()).chain(arguments).collect::<Vec<_>>().join(" ")
+    let words = std::env::args_os().skip(1);
+    report::command_line(words.map(|word| word.to_string_lossy().into_owned()))
 }
 
 #[cfg(test)]

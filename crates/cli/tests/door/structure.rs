@@ -125,7 +125,9 @@ fn faults_of_the_keys_of_a_structure_are_told_where_they_are() {
         folder.write("modes.csv", MODES);
         let text = MODEL.replacen(from, to, 1);
         let text = match name {
-            "lengths-y" => text.replace("[[structure.point]]\nname = \"Roof\"\nheight = \"8 m\"\n", ""),
+            "lengths-y" => {
+                text.replace("[[structure.point]]\nname = \"Roof\"\nheight = \"8 m\"\n", "")
+            }
             _ => text,
         };
         folder.write("model.toml", text);

@@ -11,7 +11,6 @@ use super::{AssessmentError, FailedRun};
 use crate::error::RunError;
 use crate::input::loaded::Loaded;
 use crate::input::{Analysis, Bound, Names};
-use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::motion::target::{Matched, TargetSpectrum};
 use crate::notice::Notice;
@@ -255,13 +254,14 @@ pub fn run_histories(
             on_record(model, i, *scale, &bounds, ran.by_ref().take(bounds.len()))
         };
         let records = factors.iter().enumerate().map(on).collect();
+        let slider = model.analysis.model.slider();
         let mut of_model = ModelHistories {
             name: model.name.to_owned(),
             hash: model.analysis.hash(),
             names: model.analysis.names.clone(),
-            gap_m: model.analysis.model.slider().gap_m(),
-            travels_m: travels(&model.analysis.model),
-            stop_m: model.analysis.model.slider().stop().map_or([None; 2], |stop| stop.gap_m),
+            gap_m: slider.gap_m(),
+            travels_m: slider.surfaces().iter().map(|on| on.travel_m).collect(),
+            stop_m: slider.stop_m(),
             governing_history: None,
             lateral: match scaling {
                 Scaling::Target(spectrum, _) => lateral(model.analysis, spectrum),
@@ -289,12 +289,6 @@ pub fn run_histories(
         }
     }
     Ok(Histories { models: done, shape, runs, governing, matched, notices })
-}
-
-/// Travel of each surface in series in m, where it ends.
-fn travels(model: &Model) -> Vec<Option<f64>> {
-    let series = model.slider().series();
-    series.map_or(&[][..], |series| series.surfaces()).iter().map(|on| on.travel_m).collect()
 }
 
 /// The bounds of friction that an analysis asks for.

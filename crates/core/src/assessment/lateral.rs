@@ -94,21 +94,7 @@ struct Loop {
 
 impl Loop {
     fn of(model: &Model) -> Option<Self> {
-        let slider = model.slider();
-        if slider.rate().is_some() {
-            return None;
-        }
-        let mut surfaces: Vec<[f64; 2]> = match slider.series() {
-            Some(series) => {
-                let of = |radius_m: Option<f64>| radius_m.map_or(0.0, |radius_m| 1.0 / radius_m);
-                series.surfaces().iter().map(|on| [on.friction, of(on.radius_m)]).collect()
-            }
-            None => {
-                let [positive, negative] = model.kinetic_friction();
-                let friction = 0.5 * (positive + negative);
-                vec![[friction, model.slider_stiffness_n_per_m() / model.weight_n()]]
-            }
-        };
+        let mut surfaces = model.slider().slow_loop(model.normal_n(), model.weight_n())?;
         surfaces.sort_by(|a, b| a[0].total_cmp(&b[0]));
         Some(Self { surfaces })
     }

@@ -9,7 +9,7 @@ use crate::model::Model;
 use crate::motion::{GroundMotion, Sine, spectrum};
 use crate::notice::Notice;
 use crate::progress::{GoOn, UNWATCHED};
-use crate::response::{History, Response};
+use crate::response::{History, Method, Response};
 use crate::solver;
 use crate::study::notices::{coarse_sampling, highest_hz, longest_step_s, suspicious};
 
@@ -45,6 +45,17 @@ pub struct Judged {
     pub certificate: Certificate,
 }
 
+/// A response that is not judged.
+#[derive(Clone, Debug)]
+pub struct Solved {
+    /// Factor on both coefficients of friction.
+    pub friction_factor: f64,
+    /// The model with that friction.
+    pub model: Model,
+    /// The response.
+    pub response: Response,
+}
+
 /// What came of a job.
 #[derive(Clone, Debug)]
 pub struct Outcome {
@@ -71,24 +82,27 @@ pub struct FloorSpectra {
     pub storeys_m_per_s2: Vec<Vec<f64>>,
 }
 
+impl Outcome {
+    /// Lets go of the histories, of which figures and certificates are left.
+    pub fn forget_history(&mut self) {
+        let bounds = self.bounds.iter_mut().flatten();
+        for judged in core::iter::once(&mut self.nominal).chain(bounds) {
+            judged.response.history = None;
+            if let Some(plane) = &mut judged.response.in_plane {
+                plane.history = None;
+            }
+        }
+    }
+}
+
 impl Job {
     /// An analysis on a motion.
     ///
     /// # Errors
     /// [`InputError`] for a tail that cannot be.
     pub fn new(analysis: Analysis, loaded: Loaded) -> Result<Self, InputError> {
-        let bare = &loaded.motion;
-        if bare.horizontal_y_m_per_s2().is_none() {
-            analysis.along_x_alone()?;
-        }
-        let motion = match analysis.tail_s {
-            0.0 => bare.clone(),
-            tail_s => bare.with_tail(tail_s).map_err(|error| of_tail(&analysis, &error))?,
-        };
-        let mut warnings = loaded.warnings.clone();
-        warnings.extend(suspicious(&analysis.model));
-        let (highest_hz, step_s) = (highest_hz(&analysis.model), longest_step_s(bare));
-        warnings.extend(coarse_sampling(highest_hz, step_s));
+        let motion = motion_of(&analysis, &loaded.motion)?;
+        let warnings = noticed(&analysis, &loaded);
         Ok(Self { analysis, loaded, motion, warnings })
     }
 
@@ -157,6 +171,73 @@ impl Job {
         let certificate = check::check_while(&model, &self.motion, &response, go_on)?;
         Ok(Judged { friction_factor, model, response, certificate })
     }
+}
+
+/// What an analysis solves: the motion with its tail.
+///
+/// # Errors
+/// [`InputError`] for a tail that cannot be, and for keys along y on a motion in one direction.
+pub fn motion_of(analysis: &Analysis, bare: &GroundMotion) -> Result<GroundMotion, InputError> {
+    if bare.horizontal_y_m_per_s2().is_none() {
+        analysis.along_x_alone()?;
+    }
+    match analysis.tail_s {
+        0.0 => Ok(bare.clone()),
+        tail_s => bare.with_tail(tail_s).map_err(|error| of_tail(analysis, &error)),
+    }
+}
+
+/// What is noticed of a model and a motion before they are run.
+#[must_use]
+pub fn noticed(analysis: &Analysis, loaded: &Loaded) -> Vec<Notice> {
+    let mut warnings = loaded.warnings.clone();
+    warnings.extend(suspicious(&analysis.model));
+    let (highest_hz, step_s) = (highest_hz(&analysis.model), longest_step_s(&loaded.motion));
+    warnings.extend(coarse_sampling(highest_hz, step_s));
+    warnings
+}
+
+/// The responses of an analysis to a motion with its tail, unjudged: nominal, then lower and upper where the
+/// model gives bounds of friction. Histories are kept where they are asked for.
+///
+/// # Errors
+/// [`SolveError::Stopped`] where `go_on` says no, otherwise [`SolveError`] with time and cause.
+///
+/// # Examples
+/// ```
+/// use slipstick::assessment::single::solve_all;
+/// use slipstick::{input, motion::GroundMotion, progress::UNWATCHED};
+///
+/// let text = "[block]\nmass = \"1 t\"\n[slider]\nstatic_friction = 0.1\nkinetic_friction = 0.1\n\
+///             bounds = { lower = 0.8, upper = 1.3 }";
+/// let analysis = input::parse("model.toml", text, &[])?;
+/// let motion = GroundMotion::evenly_spaced(0.5, vec![0.0, 3.0, 0.0], None)?;
+/// let [nominal, lower, upper] = &solve_all(&analysis, &motion, false, UNWATCHED)?[..] else { panic!() };
+/// let slid = |solved: &slipstick::assessment::single::Solved| solved.response.demands.sliding_path_m;
+/// assert!(slid(upper) < slid(nominal) && slid(nominal) < slid(lower));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn solve_all(
+    analysis: &Analysis,
+    motion: &GroundMotion,
+    history: bool,
+    go_on: GoOn<'_>,
+) -> Result<Vec<Solved>, SolveError> {
+    let solved = |bound: Option<Bound>| {
+        let model = bound.map_or_else(|| analysis.model.clone(), |bound| bound.of(&analysis.model));
+        let response = match analysis.method {
+            Method::Exact if !history => solver::exact_demands_while(&model, motion, go_on)?,
+            method => solver::solve_while(&model, motion, method, go_on)?,
+        };
+        let response = Response { history: response.history.filter(|_| history), ..response };
+        let friction_factor = bound.map_or(1.0, |bound| bound.friction_factor);
+        Ok(Solved { friction_factor, model, response })
+    };
+    let bounds = analysis.friction_bounds.map(|factors| {
+        let [lower, _, upper] = factors.all();
+        [lower, upper]
+    });
+    core::iter::once(None).chain(bounds.into_iter().flatten().map(Some)).map(solved).collect()
 }
 
 /// A number without the rounding of its unit: 0.12 g is 1.176798 m/s², not 1.1767979999999998.

@@ -9,12 +9,11 @@ use super::suite::{Scaling, Suite};
 use super::{AssessmentError, FailedRun, refuse};
 use crate::error::{ModelError, MotionError, RunError, Stopped};
 use crate::input::{Bound, Parts};
-use crate::model::{Block, InitialState, Model, Slider};
+use crate::model::{Block, InitialState, Model};
 use crate::motion::GroundMotion;
 use crate::notice::Notice;
 use crate::numerics::fractile::fractiles;
 use crate::response::{DemandColumn, demand_values};
-use crate::slider::{Ends, Friction};
 use crate::study::Record;
 use crate::study::engine::Engine;
 use crate::table::Table;
@@ -30,19 +29,12 @@ const HELD: f64 = 1e9;
 /// # Errors
 /// [`ModelError`] never, of a model that was checked.
 pub fn fixed_base(model: &Model) -> Result<Model, ModelError> {
-    let held = Friction::new(HELD, HELD)?;
     let initial = InitialState {
         sliding_displacement_m: 0.0,
         sliding_velocity_m_per_s: 0.0,
         ..model.initial().clone()
     };
-    let ends = match model.slider().ends {
-        Ends::Open { .. } => Ends::Open { gap_m: None },
-        stop @ Ends::Stop(_) => stop,
-    };
-    let spring = Slider::sprung(held, model.slider_stiffness_n_per_m());
-    let Slider { damper_n_s_per_m, tilt_rad, .. } = *model.slider();
-    let slider = Slider { damper_n_s_per_m, tilt_rad, ends, ..spring };
+    let slider = model.slider().held(HELD, model.normal_n())?;
     let (block, gravity_m_per_s2) = (*model.block(), model.gravity_m_per_s2());
     match model.structure() {
         Some(structure) => {

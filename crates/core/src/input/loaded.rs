@@ -3,9 +3,10 @@
 
 use super::{PairOf, Scale};
 use crate::error::MotionError;
+use crate::motion::processing::{Step, process_motion};
 use crate::motion::{Figures, GroundMotion};
 use crate::notice::{Notice, NoticeKind};
-use crate::record::{self, Channel, Origin, Quantity, Record, Sampling, Units};
+use crate::record::{self, Channel, FilterCorners, Origin, Quantity, Record, Sampling, Units};
 
 /// The column that becomes the vertical component of its neighbour without being asked for.
 const VERTICAL_COLUMN: &str = "vertical_acceleration_m_per_s2";
@@ -143,6 +144,52 @@ impl Loaded {
     /// [`MotionError`] as [`GroundMotion::turned`].
     pub fn turned(&self, scale_y: f64, angle_rad: f64) -> Result<Self, MotionError> {
         Ok(self.with(self.motion.turned(scale_y, angle_rad)?, 1.0))
+    }
+
+    /// The same after steps of processing, on all components; `None` where they end in another quantity.
+    ///
+    /// # Errors
+    /// As [`process_motion`].
+    pub fn processed(&self, steps: &[Step]) -> Result<Option<Self>, (usize, MotionError)> {
+        let Some(motion) = process_motion(&self.motion, steps)? else { return Ok(None) };
+        let said = steps.iter().map(Step::to_string);
+        let description = self.description.iter().cloned().chain(said).collect();
+        Ok(Some(Self { description, ..self.with(motion, 1.0) }))
+    }
+
+    /// One of its components, with the label of its place.
+    #[must_use]
+    pub fn component(&self, component: Component) -> Option<Self> {
+        let motion = match component {
+            Component::X => Some(self.motion.along_x()),
+            Component::Y => self.motion.horizontal_y_m_per_s2().map(|_| self.motion.along_y()),
+            Component::Vertical => self.motion.upwards(),
+        };
+        let motion = motion?.horizontal_alone();
+        let origin = match component {
+            Component::X => self.origin.clone(),
+            _ => Origin { component: None, azimuth_deg: None, ..self.origin.clone() },
+        };
+        Some(Self { origin, ..self.with(motion, 1.0) })
+    }
+
+    /// Its component along x as a channel of a record, in SI.
+    #[must_use]
+    pub fn as_channel(&self) -> Channel {
+        let Origin { event, station, component, azimuth_deg, .. } = self.origin.clone();
+        let uneven = || Sampling::Times(self.motion.times_s().to_vec());
+        Channel {
+            name: self.channel.clone(),
+            event,
+            station,
+            component,
+            azimuth_deg,
+            units: Units::m_per_s2(),
+            values: self.motion.horizontal_m_per_s2().to_vec(),
+            sampling: self.motion.dt_s().map_or_else(uneven, Sampling::Dt),
+            filter: FilterCorners::default(),
+            warnings: self.warnings.clone(),
+        }
     }
 
     /// What it is with another motion made of its own, and a factor on that.

@@ -8,8 +8,9 @@
 //! displacement of a point = Σ φ η = Σ (φ L) d
 //! ```
 
-use super::{Damping, Frame, positive};
+use super::{Damping, Frame};
 use crate::error::ModelError;
+use crate::slider::ranges::positive;
 
 /// A mode on a fixed base.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,8 +2,8 @@
 
 use core::f64::consts::{PI, TAU};
 
-use super::positive;
 use crate::error::ModelError;
+use crate::slider::ranges::positive;
 use crate::units::STANDARD_GRAVITY_M_PER_S2;
 
 /// Density of water in kg/m³, of which a specific gravity is a multiple.

@@ -26,6 +26,9 @@ pub struct FourierSpectrum {
 }
 
 impl FourierSpectrum {
+    /// Largest step between frequencies where nothing else is asked for, in Hz.
+    pub const USUAL_STEP_HZ: f64 = 0.05;
+
     /// Frequencies in Hz, one an amplitude.
     pub fn frequencies_hz(&self) -> impl Iterator<Item = f64> + '_ {
         (0..self.amplitudes_m_per_s.len()).map(|j| j as f64 * self.df_hz)

@@ -12,6 +12,9 @@ mod reshape;
 
 pub use butterworth::Band;
 
+use std::sync::Arc;
+
+use super::GroundMotion;
 use super::series::{Quantity, Series};
 use crate::error::MotionError;
 
@@ -104,4 +107,39 @@ pub fn process(series: &Series, steps: &[Step]) -> Result<Series, (usize, Motion
         series = step.apply(&series).map_err(|error| (index, error))?;
     }
     Ok(series)
+}
+
+/// All steps in their order on every component of a motion; `None` where they end in another quantity.
+///
+/// # Errors
+/// The first step's error, with its index from 0.
+///
+/// # Examples
+/// ```
+/// use slipstick::motion::GroundMotion;
+/// use slipstick::motion::processing::{Step, process_motion};
+/// let motion = GroundMotion::evenly_spaced(0.5, vec![1.0, 2.0, 6.0], Some(vec![0.0, 3.0, 0.0])).unwrap();
+/// let steps = [Step::parse("remove mean").unwrap()];
+/// let motion = process_motion(&motion, &steps).unwrap().unwrap();
+/// assert_eq!(motion.horizontal_m_per_s2(), [-2.0, -1.0, 3.0]);
+/// assert_eq!(motion.vertical_m_per_s2(), Some(&[-1.0, 2.0, -1.0][..]));
+/// ```
+pub fn process_motion(
+    motion: &GroundMotion,
+    steps: &[Step],
+) -> Result<Option<GroundMotion>, (usize, MotionError)> {
+    let processed = |values: &Arc<Vec<f64>>| {
+        let series = Series { values: values.clone(), ..motion.series() };
+        Ok::<_, (usize, MotionError)>(process(&series, steps)?.motion())
+    };
+    let Some(along_x) = processed(&motion.horizontal_m_per_s2)? else { return Ok(None) };
+    let other = |values: &Option<Arc<Vec<f64>>>| {
+        let processed = values.as_ref().map(processed).transpose()?.flatten();
+        Ok::<_, (usize, MotionError)>(processed.map(|motion| motion.horizontal_m_per_s2))
+    };
+    Ok(Some(GroundMotion {
+        horizontal_y_m_per_s2: other(&motion.horizontal_y_m_per_s2)?,
+        vertical_m_per_s2: other(&motion.vertical_m_per_s2)?,
+        ..along_x
+    }))
 }

@@ -56,6 +56,9 @@ impl Spectrum {
     }
 }
 
+/// Periods of a spectrum of a record where nothing else is asked for: from, to (in s), number.
+pub const USUAL_PERIODS: (f64, f64, usize) = (0.01, 10.0, 200);
+
 /// `count` periods in s, two or more, from one to another, both > 0, evenly spaced by their
 /// logarithm.
 #[must_use]

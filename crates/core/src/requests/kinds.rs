@@ -164,6 +164,28 @@ const SPECTRUM: &[Field] = &[
     PAIRS,
 ];
 
+/// Fields of derivatives.
+const SENSITIVITY: &[Field] = &[
+    Field::new(
+        "paths",
+        "PATHS",
+        "Keys of the model that the demands are derived by: slider.kinetic_friction,slider.radius; may be \
+         repeated",
+    )
+    .many()
+    .sample("slider.kinetic_friction"),
+    MEASURE,
+    SCALE_TO,
+    SCALE,
+    Field::new(
+        "demand",
+        "KEY",
+        "Keys of the demands; all that are numbers if left out; may be repeated",
+    )
+    .many(),
+    PAIRS,
+];
+
 /// Fields of an incremental dynamic analysis.
 const IDA: &[Field] = &[
     MEASURE,
@@ -365,6 +387,8 @@ pub enum Kind {
     Sweep,
     /// A sliding spectrum, or response over excitation frequency.
     Spectrum,
+    /// Derivatives of the demands with respect to keys of the model.
+    Sensitivity,
     /// An incremental dynamic analysis.
     Ida,
     /// A lognormal fragility of a table of runs.
@@ -383,11 +407,12 @@ pub enum Kind {
 
 impl Kind {
     /// All of them, in their order.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Run,
         Self::Suite,
         Self::Sweep,
         Self::Spectrum,
+        Self::Sensitivity,
         Self::Ida,
         Self::Fragility,
         Self::Design,
@@ -405,6 +430,7 @@ impl Kind {
             Self::Suite => "suite",
             Self::Sweep => "sweep",
             Self::Spectrum => "spectrum",
+            Self::Sensitivity => "sensitivity",
             Self::Ida => "ida",
             Self::Fragility => "fragility",
             Self::Design => "design",
@@ -429,6 +455,9 @@ impl Kind {
             Self::Suite => "Models on the records of a suite, side by side, with what governs.",
             Self::Sweep => "How the demands on one motion follow a value of the model.",
             Self::Spectrum => "Fractiles of the demands over a parameter of the model.",
+            Self::Sensitivity => {
+                "How much each key of the model changes each demand, with its error."
+            }
             Self::Ida => "Incremental dynamic analysis: demands over intensity, record by record.",
             Self::Fragility => "The probability of passing a limit over intensity.",
             Self::Design => "The least floor acceleration that stays within a gap.",
@@ -447,6 +476,7 @@ impl Kind {
             Self::Suite => SUITE,
             Self::Sweep => SWEEP,
             Self::Spectrum => SPECTRUM,
+            Self::Sensitivity => SENSITIVITY,
             Self::Ida => IDA,
             Self::Fragility => FRAGILITY,
             Self::Design => DESIGN,
@@ -476,6 +506,7 @@ pub const NOT_OFFERED: &[(Door, Kind, Option<&str>, &str)] = &[
     (Door::Page, Kind::Suite, Some("periods"), "the page has no pairs of records"),
     (Door::Page, Kind::Suite, Some("pairs"), "the page has no pairs of records"),
     (Door::Page, Kind::Spectrum, Some("pairs"), "the page has no pairs of records"),
+    (Door::Page, Kind::Sensitivity, None, "the page's sweep shows how demands follow a value"),
     (Door::Page, Kind::Ida, Some("pairs"), "the page has no pairs of records"),
     (Door::Page, Kind::Design, Some("pairs"), "the page has no pairs of records"),
     (Door::Page, Kind::Compare, None, "the page shows no measurements"),

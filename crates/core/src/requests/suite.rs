@@ -222,7 +222,10 @@ fn effective_periods(analyses: &[Analysis], spectrum: &TargetSpectrum) -> Option
 }
 
 /// Two periods in s, `0.6 s..3.8 s`.
-fn periods(text: &str) -> Result<[f64; 2], ChoiceError> {
+///
+/// # Errors
+/// [`ChoiceError`] for what is none.
+pub fn periods(text: &str) -> Result<[f64; 2], ChoiceError> {
     let wrong = || wrong("periods", "two periods, the shorter first: 0.6 s..3.8 s", text);
     let (from, to) = text.split_once("..").ok_or_else(wrong)?;
     let of = |text: &str| quantity("periods", text.trim(), Dimension::Time);
@@ -231,7 +234,10 @@ fn periods(text: &str) -> Result<[f64; 2], ChoiceError> {
 }
 
 /// The shape of a code from its three parameters, `sds = 1.2 g, sd1 = 0.8 g, tl = 8 s`.
-fn code_spectrum(text: &str) -> Result<TargetSpectrum, ChoiceError> {
+///
+/// # Errors
+/// [`ChoiceError`] for what is none.
+pub fn code_spectrum(text: &str) -> Result<TargetSpectrum, ChoiceError> {
     let expected = "three parameters: sds = 1.2 g, sd1 = 0.8 g, tl = 8 s";
     let wrong = || wrong("code-spectrum", expected, text);
     let Some([Some(sds), Some(sd1), Some(tl)]) = named(text, ["sds", "sd1", "tl"]) else {

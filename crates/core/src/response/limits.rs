@@ -11,15 +11,14 @@ const FLAT: f64 = 0.2;
 /// of flat geometry is that of the dish, `N s/√(R² − s²)`, times `√(1 − (s/R)²)`.
 #[must_use]
 pub fn flat_geometry(model: &Model, demands: &Demands) -> Option<Notice> {
-    let slider = model.slider();
-    let series = slider.series().map_or(&[][..], |series| series.surfaces());
-    let of_surfaces = series.iter().zip(&demands.surfaces).enumerate();
-    let of_surfaces = of_surfaces.filter_map(|(i, (surface, on))| {
-        let of = format!("surface {}", i + 1);
-        Some((of, on.peak_displacement_m / surface.radius_m?))
-    });
-    let whole = slider.radius_m().map(|radius_m| demands.peak_sliding_displacement_m / radius_m);
-    let all = whole.map(|ratio| ("the block".to_owned(), ratio)).into_iter().chain(of_surfaces);
+    let of = |(surface, radius_m): (Option<usize>, f64)| match surface {
+        None => Some(("the block".to_owned(), demands.peak_sliding_displacement_m / radius_m)),
+        Some(i) => {
+            let on = demands.surfaces.get(i)?;
+            Some((format!("surface {}", i + 1), on.peak_displacement_m / radius_m))
+        }
+    };
+    let all = model.slider().radii_m().filter_map(of);
     let (what, ratio) = all.reduce(|a, b| if b.1 > a.1 { b } else { a })?;
     if !(ratio > FLAT) {
         return None;

@@ -1,5 +1,6 @@
 //! Friction of one surface: which forces hold the block, and which resist it while it slides.
 
+use super::ranges::in_range;
 use super::{Direction, RateLaw};
 use crate::error::ModelError;
 
@@ -107,27 +108,20 @@ impl Friction {
 
 /// Whether all coefficients may be multiplied by a factor.
 pub(super) fn check_factor(found: f64) -> Result<(), ModelError> {
-    if found.is_finite() && found >= 0.0 {
-        return Ok(());
-    }
-    let (quantity, expected) = ("factor on friction", "a finite factor ≥ 0");
-    Err(ModelError::OutOfRange { quantity, expected, found })
+    let is_within = found.is_finite() && found >= 0.0;
+    in_range("factor on friction", "a finite factor ≥ 0", found, is_within)
 }
 
 fn check(fixed: [f64; 2], kinetic: [f64; 2]) -> Result<(), ModelError> {
     const FIXED: [&str; 2] = ["static_friction (positive)", "static_friction (negative)"];
     const KINETIC: [&str; 2] = ["kinetic_friction (positive)", "kinetic_friction (negative)"];
     for (quantity, found) in FIXED.into_iter().zip(fixed).chain(KINETIC.into_iter().zip(kinetic)) {
-        if !(found.is_finite() && found >= 0.0) {
-            let expected = "a finite coefficient of friction ≥ 0";
-            return Err(ModelError::OutOfRange { quantity, expected, found });
-        }
+        let is_within = found.is_finite() && found >= 0.0;
+        in_range(quantity, "a finite coefficient of friction ≥ 0", found, is_within)?;
     }
     for ((quantity, found), limit) in KINETIC.into_iter().zip(kinetic).zip(fixed) {
-        if found > limit {
-            let expected = "at most the static friction of the same direction";
-            return Err(ModelError::OutOfRange { quantity, expected, found });
-        }
+        let expected = "at most the static friction of the same direction";
+        in_range(quantity, expected, found, found <= limit)?;
     }
     Ok(())
 }

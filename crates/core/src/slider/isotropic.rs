@@ -1,13 +1,14 @@
 //! Sliders that are the same in all horizontal directions.
 
+use super::hold::Disc;
 use super::{Bearing, Direction, RateCurve, Restoring, Slider};
 use crate::linear::polynomial::Polynomial;
 
 /// What a slider does along any direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Isotropic {
-    /// `μ_s`.
-    pub(crate) fixed: f64,
+    /// The forces that friction holds, in N.
+    pub(crate) hold: Disc,
     pub(crate) kinetic: Kinetic,
     /// `K1` in N/m without that of a pendulum, which is `N/R`: `1/R` in 1/m, 0 without one.
     pub(crate) stiffness_n_per_m: f64,
@@ -103,6 +104,7 @@ impl Slider {
             Restoring::Spring { stiffness_n_per_m } => (stiffness_n_per_m, 0.0),
             Restoring::Pendulum { radius_m } => (0.0, 1.0 / radius_m),
         };
-        Ok(Isotropic { fixed: fixed[0], kinetic, stiffness_n_per_m, per_radius })
+        let hold = Disc { of_normal: fixed[0] };
+        Ok(Isotropic { hold, kinetic, stiffness_n_per_m, per_radius })
     }
 }

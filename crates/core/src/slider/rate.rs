@@ -1,6 +1,7 @@
 //! Kinetic friction that depends on the sliding speed.
 
 use super::Direction;
+use super::ranges::{in_range, not_negative};
 use crate::error::ModelError;
 
 /// How a coefficient of friction depends on the sliding speed `v = |ṡ|`.
@@ -71,13 +72,6 @@ impl RateLaw {
     /// [`ModelError::OutOfRange`] unless coefficients, rate and factors are finite and ≥ 0 and speeds
     /// start at 0 and increase; [`ModelError::WrongCount`] unless there is one coefficient a speed.
     pub fn new(curve: RateCurve, factors: [f64; 2]) -> Result<Self, ModelError> {
-        let check = |quantity, found: f64| {
-            if found.is_finite() && found >= 0.0 {
-                return Ok(());
-            }
-            let expected = "a finite number ≥ 0";
-            Err(ModelError::OutOfRange { quantity, expected, found })
-        };
         match &curve {
             RateCurve::Pieces { speeds_m_per_s, coefficients } => {
                 if speeds_m_per_s.len() != coefficients.len() || speeds_m_per_s.is_empty() {
@@ -89,27 +83,24 @@ impl RateLaw {
                 }
                 let quantity = "kinetic_friction velocity";
                 let first = speeds_m_per_s[0];
-                if first != 0.0 {
-                    let expected = "0 as the first velocity";
-                    return Err(ModelError::OutOfRange { quantity, expected, found: first });
-                }
+                in_range(quantity, "0 as the first velocity", first, first == 0.0)?;
                 for pair in speeds_m_per_s.windows(2) {
-                    if !(pair[1] > pair[0] && pair[1].is_finite()) {
-                        let expected = "velocities that increase";
-                        return Err(ModelError::OutOfRange { quantity, expected, found: pair[1] });
-                    }
+                    let is_within = pair[1] > pair[0] && pair[1].is_finite();
+                    in_range(quantity, "velocities that increase", pair[1], is_within)?;
                 }
                 for found in coefficients {
-                    check("kinetic_friction coefficient", *found)?;
+                    not_negative("kinetic_friction coefficient", *found)?;
                 }
             }
             RateCurve::Exponential { slow, fast, rate_s_per_m } => {
-                check("kinetic_friction slow", *slow)?;
-                check("kinetic_friction fast", *fast)?;
-                check("kinetic_friction rate", *rate_s_per_m)?;
+                not_negative("kinetic_friction slow", *slow)?;
+                not_negative("kinetic_friction fast", *fast)?;
+                not_negative("kinetic_friction rate", *rate_s_per_m)?;
             }
         }
-        factors.iter().try_for_each(|factor| check("factor on kinetic_friction", *factor))?;
+        factors
+            .iter()
+            .try_for_each(|factor| not_negative("factor on kinetic_friction", *factor))?;
         Ok(Self { curve, factors })
     }
 

@@ -6,6 +6,7 @@
 
 use super::Direction;
 use super::friction::check_factor;
+use super::ranges::{in_range, optional_positive, positive};
 use crate::error::ModelError;
 
 /// One of the surfaces.
@@ -21,7 +22,7 @@ pub struct Surface {
 
 impl Surface {
     /// `1/R`.
-    fn curvature(&self) -> f64 {
+    pub(super) fn curvature(&self) -> f64 {
         self.radius_m.map_or(0.0, |radius_m| 1.0 / radius_m)
     }
 }
@@ -54,27 +55,17 @@ impl SurfacesInSeries {
     /// [`ModelError`] unless there is one at least, friction, radii and travels are finite and > 0
     /// and the ratio is ≥ 1.
     pub fn new(surfaces: Vec<Surface>, static_ratio: f64) -> Result<Self, ModelError> {
-        let positive = |quantity, found: f64| {
-            if found.is_finite() && found > 0.0 {
-                return Ok(());
-            }
-            let expected = "a finite number > 0";
-            Err(ModelError::OutOfRange { quantity, expected, found })
-        };
         if surfaces.is_empty() {
             let expected = "one surface at least";
             return Err(ModelError::Missing { quantity: "surface", expected });
         }
         for surface in &surfaces {
             positive("surface friction", surface.friction)?;
-            surface.radius_m.map_or(Ok(()), |r| positive("surface radius_m", r))?;
-            surface.travel_m.map_or(Ok(()), |d| positive("surface travel_m", d))?;
+            optional_positive("surface radius_m", surface.radius_m)?;
+            optional_positive("surface travel_m", surface.travel_m)?;
         }
-        if !(static_ratio.is_finite() && static_ratio >= 1.0) {
-            let expected = "a finite number ≥ 1";
-            let quantity = "static_ratio";
-            return Err(ModelError::OutOfRange { quantity, expected, found: static_ratio });
-        }
+        let is_within = static_ratio.is_finite() && static_ratio >= 1.0;
+        in_range("static_ratio", "a finite number ≥ 1", static_ratio, is_within)?;
         Ok(Self { surfaces, static_ratio })
     }
 

@@ -4,7 +4,9 @@
 //! pulls; left behind, it has recovered. Mirrored on the other side.
 
 use super::Direction;
-use super::law::{Exit, Reached, Restraint};
+use super::branch::{Exit, Reached, Restraint};
+use super::ranges::{in_range, not_negative, optional_positive, positive};
+use crate::error::ModelError;
 
 /// A stop at the end of the slider's travel, on one side or on both.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,6 +46,36 @@ impl Stop {
     #[must_use]
     pub fn rigid(gap_m: [Option<f64>; 2], restitution: f64) -> Self {
         Self { gap_m, kind: StopKind::Rigid { restitution } }
+    }
+
+    /// Refuses what no stop is.
+    pub(super) fn check(&self) -> Result<(), ModelError> {
+        if self.gap_m == [None; 2] {
+            let expected = "a gap on one side at least";
+            return Err(ModelError::Missing { quantity: "stop gap_m", expected });
+        }
+        self.gap_m.into_iter().try_for_each(|gap_m| optional_positive("stop gap_m", gap_m))?;
+        match self.kind {
+            StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } => {
+                positive("stop stiffness_n_per_m", stiffness_n_per_m)?;
+                not_negative("stop damper_n_s_per_m", damper_n_s_per_m)
+            }
+            StopKind::Rigid { restitution } => {
+                let is_within = (0.0..=1.0).contains(&restitution);
+                in_range("stop restitution", "a number from 0 to 1", restitution, is_within)
+            }
+        }
+    }
+
+    /// Refuses a place beyond a rigid stop.
+    pub(crate) fn admits(&self, place_m: f64) -> Result<(), ModelError> {
+        let StopKind::Rigid { .. } = self.kind else { return Ok(()) };
+        let within = |side: Direction| {
+            self.gap_towards(side).is_none_or(|gap_m| side.sign() * place_m <= gap_m)
+        };
+        let is_within = Direction::BOTH.into_iter().all(within);
+        let expected = "a place between the rigid stops";
+        in_range("initial sliding_displacement_m", expected, place_m, is_within)
     }
 
     /// Distance from `s = 0` to the stop on a side, in m.

@@ -18,7 +18,6 @@ mod record;
 mod screen;
 mod series;
 mod tables;
-mod windows;
 
 use fearless_simd::prelude::*;
 
@@ -27,6 +26,7 @@ use super::course::Course;
 use super::ground::{Ground, Normal};
 use super::phase::Reached;
 use super::recorder::Recorder;
+use super::windows::Windows;
 use crate::error::SolveError;
 use crate::linear::System;
 use crate::progress::Pulse;
@@ -35,7 +35,6 @@ use crate::slider::{Law, TwoBranches};
 pub(super) use self::outputs::Shape;
 pub(super) use self::peaks::Candidate;
 pub(super) use self::tables::Tables;
-pub(super) use self::windows::Windows;
 
 /// What running ahead needs to know of an analysis.
 #[derive(Clone, Copy)]

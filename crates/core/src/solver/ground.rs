@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, f64x8};
 
-use super::dense::Windows;
+use super::windows::Windows;
 use crate::linear::lanes::{greatest, largest_lane, least, sum_of_lanes};
 use crate::linear::{BATCH, Load, Window};
 use crate::model::Model;

@@ -5,6 +5,7 @@
 //! or the demand on friction, and by maps of the state (`series`). Peaks are looked for in `peaks`. Where
 //! `dense` can, it runs ahead of all three.
 
+mod buffers;
 mod peaks;
 mod screen;
 mod series;
@@ -25,7 +26,6 @@ use super::recorder::{Knot, Recorder};
 use super::slider::ROUNDING;
 use super::tables::{Batch, LazyPhase, PhaseTables, Tables};
 use super::walk::Walk;
-use super::workspace::Workspace;
 use crate::error::SolveError;
 use crate::linear::lanes::{Eight, Width, combine8, dot, eight};
 use crate::linear::polynomial::{Polynomial, derivative};
@@ -33,8 +33,8 @@ use crate::linear::{BATCH, Force, Series};
 use crate::response::Mode;
 use crate::slider::{Affine, Contact, EXITS, Exit, Fading, Hold, Law, Restraint};
 
-pub(super) use self::peaks::{Peaks, bound_between};
-pub(super) use self::screen::clear_steps;
+pub(super) use self::buffers::Buffers;
+pub(super) use self::peaks::Peaks;
 
 /// A polyline departs from its chord over a batch by no more than this times the sum of its second
 /// differences.
@@ -165,20 +165,20 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
         (tables, law): (&'a Tables, &'a Law<'a>),
         ground: Ground<'a>,
         recorder: Option<Recorder>,
-        workspace: &mut Workspace,
+        buffers: &mut Buffers,
     ) -> Self {
         let system = &tables.stick.system;
         let stride = 4 * width.fours();
         let n = width.modes();
-        let [mut x, next] = workspace.states.each_mut().map(|x| Workspace::list(x, stride, 0.0));
+        let [mut x, next] = buffers.states.each_mut().map(|x| Buffers::list(x, stride, 0.0));
         x.copy_from_slice(&tables.start);
         let outputs = output::count(system.points());
         let groups = outputs.div_ceil(8);
-        let values = Workspace::list(&mut workspace.values, groups, Eight::ZERO);
+        let values = Buffers::list(&mut buffers.values, groups, Eight::ZERO);
         let [mut amplitudes, f, g] =
-            workspace.modes.each_mut().map(|list| Workspace::list(list, n, 0.0));
+            buffers.modes.each_mut().map(|list| Buffers::list(list, n, 0.0));
         amplitudes.resize(n.next_multiple_of(4), 0.0);
-        let (mut series, mut peaks) = (take(&mut workspace.series), take(&mut workspace.peaks));
+        let (mut series, mut peaks) = (take(&mut buffers.series), take(&mut buffers.peaks));
         series.serve(system, tables.orders);
         peaks.serve(groups, outputs, stride);
         let now = InForce {
@@ -192,7 +192,7 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
         let of_dense = tables.dense.as_deref();
         let dense =
             of_dense.and_then(|of| Dense::new(simd, (of, &tables.stick.system), law, ground));
-        let mut candidates = take(&mut workspace.candidates);
+        let mut candidates = take(&mut buffers.candidates);
         candidates.clear();
         Self {
             simd,
@@ -221,12 +221,12 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
     }
 
     /// Gives its lists back; its recorder.
-    pub(super) fn leave(self, workspace: &mut Workspace) -> Option<Recorder> {
+    pub(super) fn leave(self, buffers: &mut Buffers) -> Option<Recorder> {
         let [f, g] = self.scratch;
-        workspace.states = [self.x, self.next];
-        workspace.modes = [self.amplitudes, f, g];
-        (workspace.values, workspace.series) = (self.values, self.series);
-        (workspace.peaks, workspace.candidates) = (self.peaks, self.candidates);
+        buffers.states = [self.x, self.next];
+        buffers.modes = [self.amplitudes, f, g];
+        (buffers.values, buffers.series) = (self.values, self.series);
+        (buffers.peaks, buffers.candidates) = (self.peaks, self.candidates);
         self.recorder
     }
 

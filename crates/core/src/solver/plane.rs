@@ -134,14 +134,13 @@ impl<'a> Plane<'a> {
         }
         let loads = self.loads(stretch, at_s);
         let at = self.instant(&loads);
-        let (push, holds) = (norm(at.push), at.holds);
+        let (push, hold, normal_n) = (norm(at.push), self.system.hold, loads.normal[0]);
         if is_stuck {
             let leaves = core::mem::take(&mut self.is_released) || self.leaves(loads, &at);
             return leaves.then(|| Due::Slip(self.direction_of(&at, loads)));
         }
-        if push <= holds {
-            let margin = (holds > 0.0).then(|| (push - holds).abs() / holds);
-            return Some(Due::Stick(margin));
+        if hold.excess(push, normal_n) <= 0.0 {
+            return Some(Due::Stick(hold.margin(push, normal_n)));
         }
         Some(Due::GoOn(self.system.departure(at.push, at.friction)))
     }

@@ -3,19 +3,18 @@
 use core::mem::take;
 use std::sync::Arc;
 
-use fearless_simd::Level;
 use fearless_simd::prelude::*;
 
 use super::course::{Course, Sliding};
 use super::ground::{Ground, Normal, Sampling, contact_loss_s, varying_normal};
-use super::modal::Modal;
+use super::instructions::{InstructionSet, Job};
+use super::modal::{Buffers, Modal};
 use super::phase::Phase;
 use super::recorder::{self, Recorder};
 use super::slider::SliderState;
 use super::summary::Outcome;
 use super::tables::{self, Tables};
 use super::walk::Walk;
-use super::workspace::Workspace;
 use super::{direct, plane, summary};
 use crate::error::SolveError;
 use crate::linear::lanes::{Many, One, Width};
@@ -354,7 +353,7 @@ fn solve_along_x(
         ground,
         recorder,
         pulse: Pulse::new(go_on),
-        workspace,
+        buffers: &mut workspace.buffers,
     });
     let (mut outcome, recorder) = match solved {
         // What would happen beyond a rigid stop says nothing.
@@ -373,7 +372,7 @@ fn solve_along_x(
     }
     let contact_loss_s = contact_loss_s(motion.times_s(), normal);
     let warnings = summary::warnings(model, &outcome.events, &contact_loss_s);
-    let demands = summary::demands(model, &outcome, |j| workspace.peaks.attained(j));
+    let demands = summary::demands(model, &outcome, |j| workspace.buffers.peaks.attained(j));
     [workspace.acceleration, workspace.normal_n] = [sloped, varying];
     Ok(Response {
         method: Method::Exact,
@@ -455,6 +454,31 @@ fn advice(model: &Model, motion: &GroundMotion, rate: f64) -> String {
     }
 }
 
+/// Room for analyses, one after another, of any models: with it a run of friction without memory
+/// allocates nothing but its answer. It remembers the tables that were made last.
+#[derive(Debug, Default)]
+pub struct Workspace {
+    /// `a` at the samples, where the slope adds to it.
+    acceleration: Vec<f64>,
+    /// `N` at the samples, where it varies.
+    normal_n: Vec<f64>,
+    buffers: Buffers,
+    last: Option<Prepared>,
+}
+
+impl Workspace {
+    /// Prepares a model for motions of one step in s, or of none: with the tables that were made last in
+    /// this room where they serve.
+    pub fn prepare(&mut self, model: &Model, dt_s: Option<f64>) -> Prepared {
+        let prepared = match self.last.take().filter(|last| last.dt_s() == dt_s) {
+            Some(last) => last.with_model(model.clone()),
+            None => Prepared::new(model.clone(), dt_s),
+        };
+        self.last = Some(prepared.clone());
+        prepared
+    }
+}
+
 struct Analysis<'a> {
     model: &'a Model,
     tables: &'a Tables,
@@ -462,7 +486,7 @@ struct Analysis<'a> {
     ground: Ground<'a>,
     recorder: Option<Recorder>,
     pulse: Pulse<'a>,
-    workspace: &'a mut Workspace,
+    buffers: &'a mut Buffers,
 }
 
 impl Job for Analysis<'_> {
@@ -476,9 +500,9 @@ impl Job for Analysis<'_> {
             width: W,
             job: Analysis<'_>,
         ) -> Result<(Outcome, Option<Recorder>), SolveError> {
-            let Analysis { model, tables, law, ground, recorder, pulse, workspace } = job;
-            let lists = (take(&mut workspace.released), take(&mut workspace.events));
-            let phase = Modal::new((simd, width), (tables, law), ground, recorder, workspace);
+            let Analysis { model, tables, law, ground, recorder, pulse, buffers } = job;
+            let lists = (take(&mut buffers.released), take(&mut buffers.events));
+            let phase = Modal::new((simd, width), (tables, law), ground, recorder, buffers);
             let place = phase.place(0);
             let course = Course::new(SliderState::new(law, place[0], place[1]), place, lists);
             let before = [model.slope_m_per_s2(), model.normal_n()];
@@ -487,86 +511,12 @@ impl Job for Analysis<'_> {
             walk.go()?;
             let outcome = walk.outcome(tables.overturns());
             let Walk { phase, course, .. } = walk;
-            (workspace.released, workspace.events) = (course.released, course.events);
-            Ok((outcome, phase.leave(workspace)))
+            (buffers.released, buffers.events) = (course.released, course.events);
+            Ok((outcome, phase.leave(buffers)))
         }
         match self.model.storeys() {
             0 | 1 => of(simd, One, self),
             n => of(simd, Many(n), self),
         }
     }
-}
-
-/// Vector instructions of the processor, as found when the program runs: AVX2, or those that every
-/// processor of its kind has.
-#[derive(Clone, Copy, Debug)]
-pub struct InstructionSet(Level);
-
-/// Work that an instruction set does.
-pub(super) trait Job {
-    /// What comes of it.
-    type Output;
-
-    /// Does it.
-    fn run<S: Simd>(self, simd: S) -> Self::Output;
-}
-
-impl InstructionSet {
-    /// The best of this machine.
-    #[must_use]
-    pub fn best() -> Self {
-        let level = Level::new();
-        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-        if let Some(avx2) = level.as_avx2() {
-            return Self(Level::Avx2(avx2));
-        }
-        Self(portable(level))
-    }
-
-    /// All of this machine that a response can be computed by; with the feature `scalar` also no
-    /// vector instructions at all.
-    #[must_use]
-    pub fn all() -> Vec<Self> {
-        let all = [Self::best(), Self(portable(Level::new()))];
-        #[cfg(feature = "scalar")]
-        let all = all.into_iter().chain([Self(Level::fallback())]);
-        all.into_iter().collect()
-    }
-
-    #[inline(always)]
-    pub(super) fn run<J: Job>(self, job: J) -> J::Output {
-        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-        {
-            #[cfg(feature = "scalar")]
-            if let Level::Fallback(simd) = self.0 {
-                return job.run(simd);
-            }
-            if let Level::Avx2(simd) = self.0 {
-                return simd.vectorize(
-                    #[inline(always)]
-                    || job.run(simd),
-                );
-            }
-            if let Some(simd) = self.0.as_sse2() {
-                return simd.vectorize(
-                    #[inline(always)]
-                    || job.run(simd),
-                );
-            }
-            unreachable!("every processor that this is built for has SSE2")
-        }
-        #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
-        {
-            fearless_simd::dispatch!(self.0, simd => job.run(simd))
-        }
-    }
-}
-
-/// What every processor of this kind has.
-fn portable(level: Level) -> Level {
-    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-    if let Some(sse2) = level.as_sse2() {
-        return Level::Sse2(sse2);
-    }
-    level
 }

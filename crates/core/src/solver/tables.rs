@@ -6,8 +6,8 @@ use std::sync::{Arc, OnceLock};
 use fearless_simd::prelude::*;
 
 use super::dense;
+use super::instructions::{InstructionSet, Job};
 use super::outputs::{self, Outputs, Overturning, output};
-use super::prepared::{InstructionSet, Job};
 use crate::linear::polynomial::DEGREE;
 use crate::linear::{
     BATCH, MAX_RATE_STEP, Maps, Row, Solution, StoreyDamping, System, Units, orders,

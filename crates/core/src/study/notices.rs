@@ -83,10 +83,8 @@ fn missing_mass(model: &Model) -> Option<Notice> {
 
 /// A radius that no slider has.
 fn small_radius(model: &Model) -> Option<Notice> {
-    let slider = model.slider();
-    let surfaces = slider.series().map_or(&[][..], |series| series.surfaces());
-    let radii = surfaces.iter().filter_map(|surface| surface.radius_m).chain(slider.radius_m());
-    let least_m = radii.fold(f64::INFINITY, f64::min);
+    let least_m =
+        model.slider().radii_m().fold(f64::INFINITY, |least, (_, radius_m)| least.min(radius_m));
     (least_m < SMALL_RADIUS_M).then(|| {
         let message = format!(
             "a radius is {least_m} m: below {SMALL_RADIUS_M} m is no pendulum slider's; were metres meant?"
@@ -98,7 +96,7 @@ fn small_radius(model: &Model) -> Option<Notice> {
 /// A surface of a smaller radius that holds longer than one of a larger: inner surfaces are made to slide
 /// first.
 fn inner_friction(model: &Model) -> Option<Notice> {
-    let surfaces = model.slider().series()?.surfaces();
+    let surfaces = model.slider().surfaces();
     let curved = || surfaces.iter().filter_map(|on| Some((on.radius_m?, on.friction)));
     let (inner, outer) = curved().find_map(|inner| {
         let outer = curved().find(|outer| inner.0 < outer.0 && inner.1 > outer.1)?;

@@ -184,7 +184,11 @@ fn exact_one_changed_value_shows() {
         let speed = sliding.max(peak(&history.storey_velocity_m_per_s));
         for (i, column) in columns.into_iter().enumerate() {
             let length = column(&mut history.clone()).len();
-            let step = if system.model.is_plain_between_stops(true) { 31 } else { 97 };
+            let slider = system.model.slider();
+            let is_plain = slider.friction().is_some_and(|friction| friction.rate().is_none())
+                && slider.pendulum_radius_m(true).is_none()
+                && system.model.contents().is_empty();
+            let step = if is_plain { 31 } else { 97 };
             for j in (0..length).step_by(step).chain(length.checked_sub(1)) {
                 let mut tampered = history.clone();
                 let scale = if i < 3 { speed } else { peak(column(&mut tampered)) };

@@ -21,14 +21,38 @@ True
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from . import identify
-from ._assessment import Assessment, design, fragility, ida, read_suite, spectrum, suite
+from . import _core, identify
+from ._assessment import (
+    Assessment,
+    Sensitivity,
+    design,
+    fragility,
+    ida,
+    read_suite,
+    sensitivity,
+    spectrum,
+    suite,
+)
 from ._core import Model, Motion, __version__
 from ._demands import demands
 from ._errors import InputError, RecordError, SlipstickWarning, SolveError, StudyError
 from ._laboratory import Comparison, Estimate, Identified, compare
+from ._parts import (
+    Analysis,
+    Block,
+    Contents,
+    Frame,
+    Initial,
+    Pulse,
+    Sine,
+    Slider,
+    Stop,
+    Storey,
+    Surface,
+    Sweep,
+)
 from ._response import Response, run
 from ._study import Plan, Study, study
 from ._table import Event, Events, Table
@@ -40,22 +64,35 @@ if TYPE_CHECKING:
     from . import audit
 
 __all__ = [
+    "Analysis",
     "Assessment",
+    "Block",
     "Comparison",
+    "Contents",
     "Estimate",
     "Event",
     "Events",
+    "Frame",
     "Identified",
+    "Initial",
     "InputError",
     "Model",
     "Motion",
     "Plan",
+    "Pulse",
     "RecordError",
     "Response",
+    "Sensitivity",
+    "Sine",
+    "Slider",
     "SlipstickWarning",
     "SolveError",
+    "Stop",
+    "Storey",
     "Study",
     "StudyError",
+    "Surface",
+    "Sweep",
     "Table",
     "__version__",
     "audit",
@@ -65,12 +102,16 @@ __all__ = [
     "fragility",
     "ida",
     "identify",
+    "read_channels",
     "read_record",
     "read_suite",
     "run",
+    "schema",
+    "sensitivity",
     "spectrum",
     "study",
     "suite",
+    "units",
     "widget",
 ]
 
@@ -126,3 +167,58 @@ def read_record(
     """
     along_y, up = (None if other is None else Path(other) for other in (y, vertical))
     return Motion.read(Path(path), y=along_y, channel=channel, units=units, dt=dt, vertical=up)
+
+
+def read_channels(
+    path: str | PathLike[str], *, units: str | None = None, dt: float | str | None = None
+) -> dict[str, Motion]:
+    """Read all channels of acceleration of a record.
+
+    Parameters
+    ----------
+    path
+        The file.
+    units, dt
+        As in ``read_record``.
+
+    Returns
+    -------
+    dict
+        The motions by the names of their channels.
+
+    Raises
+    ------
+    RecordError
+        For content that is no record, with line and column, and a file without acceleration.
+    OSError
+        For a file that cannot be read: ``FileNotFoundError`` and its kin.
+    """
+    return _core.read_channels(Path(path), units=units, dt=dt)
+
+
+def schema(*, plan: bool = False) -> dict[str, Any]:
+    """Give the JSON schema of the model file, as ``slipstick schema`` prints it.
+
+    Parameters
+    ----------
+    plan
+        That of the plan of a study instead.
+    """
+    import json
+
+    found: dict[str, Any] = json.loads(_core.schema(plan))
+    return found
+
+
+def units() -> Table:
+    """Give all units that values may have, and what one of each is in SI.
+
+    Examples
+    --------
+    >>> import slipstick as ss
+    >>> units = ss.units()
+    >>> float(dict(zip(units["unit"], units["in_si"]))["kip"])
+    4448.2216152605
+    """
+    rows = list(zip(*_core.units(), strict=True))
+    return Table(dict(zip(("unit", "measures", "in_si", "si_unit"), map(list, rows), strict=True)))

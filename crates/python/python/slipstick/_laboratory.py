@@ -85,7 +85,9 @@ class _Test(Result):
         """
         return write(path, self._tell("_report_html", units))
 
-    def plot(self, name: str | None = None, *, ax: Axes | None = None) -> NDArray[np.object_] | Axes:
+    def plot(
+        self, name: str | None = None, *, ax: Axes | None = None, **kwargs: Any
+    ) -> NDArray[np.object_] | Axes:
         """Draw measured and computed values in Matplotlib.
 
         Parameters
@@ -94,6 +96,8 @@ class _Test(Result):
             One of ``curves``; all of them below one another if left out.
         ax
             Where one of them is drawn.
+        kwargs
+            What lines take: ``color``, ``lw``.
 
         Returns
         -------
@@ -103,9 +107,9 @@ class _Test(Result):
         from ._plot import draw_curve, draw_curves
 
         if name is None and ax is None:
-            return draw_curves(self.curves)
+            return draw_curves(self.curves, **kwargs)
         chosen = next(iter(self.curves)) if name is None else name
-        return draw_curve(chosen, self.curves[chosen], ax)
+        return draw_curve(chosen, self.curves[chosen], ax, **kwargs)
 
     def __str__(self) -> str:
         return self.text()

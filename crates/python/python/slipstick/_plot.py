@@ -8,12 +8,14 @@ import numpy as np
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from typing import Any
 
     from matplotlib.animation import FuncAnimation
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
+    from ._core import Motion
     from ._response import Response
     from ._table import Table
 
@@ -26,25 +28,25 @@ class Plotter:
     def __init__(self, response: Response) -> None:
         self._response = response
 
-    def __call__(self) -> NDArray[np.object_]:
-        """Displacement, acceleration and the friction loop on one page."""
+    def __call__(self, **kwargs: Any) -> NDArray[np.object_]:
+        """Displacement, acceleration and the friction loop on one page; lines take what is given besides."""
         import matplotlib.pyplot as plt
 
         _, axes = plt.subplot_mosaic(
             [["sliding", "loop"], ["acceleration", "loop"]], figsize=(10, 5), layout="constrained"
         )
-        self.history(ax=axes["sliding"])
-        self.acceleration(ax=axes["acceleration"])
-        self.loop(ax=axes["loop"])
+        self.history(ax=axes["sliding"], **kwargs)
+        self.acceleration(ax=axes["acceleration"], **kwargs)
+        self.loop(ax=axes["loop"], **kwargs)
         axes["acceleration"].sharex(axes["sliding"])
         return np.array([axes["sliding"], axes["acceleration"], axes["loop"]], dtype=object)
 
-    def history(self, ax: Axes | None = None) -> Axes:
+    def history(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
         """Sliding displacement over time, sliding shaded, the peak marked."""
         knots, ax = self._response.knots, axes_or_new(ax)
         time, s = knots["time_s"], 1e3 * knots["sliding_displacement_m"]
         _shade(ax, knots)
-        ax.plot(time, s)
+        ax.plot(time, s, **kwargs)
         at = int(np.argmax(np.abs(s)))
         ax.plot(time[at], s[at], "o", ms=4, color="C3", label=f"peak {s[at]:.4g} mm")
         ax.legend(loc="best", frameon=False)
@@ -52,21 +54,21 @@ class Plotter:
         ax.margins(x=0)
         return ax
 
-    def acceleration(self, ax: Axes | None = None) -> Axes:
+    def acceleration(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
         """Accelerations of table, block and top floor over time."""
         knots, ax = self._response.knots, axes_or_new(ax)
         time = knots["time_s"]
-        ax.plot(time, knots["table_acceleration_m_per_s2"] / G, color="0.7", lw=0.8, label="table")
-        ax.plot(time, knots["block_acceleration_m_per_s2"] / G, lw=0.8, label="block")
+        ax.plot(time, knots["table_acceleration_m_per_s2"] / G, **{"color": "0.7", "lw": 0.8, "label": "table", **kwargs})
+        ax.plot(time, knots["block_acceleration_m_per_s2"] / G, **{"lw": 0.8, "label": "block", **kwargs})
         floors = [name for name in knots if name.startswith("storey") and "acceleration" in name]
         if floors:
-            ax.plot(time, knots[floors[-1]] / G, lw=0.8, label=f"floor {len(floors)}")
+            ax.plot(time, knots[floors[-1]] / G, **{"lw": 0.8, "label": f"floor {len(floors)}", **kwargs})
         ax.legend(loc="best", frameon=False)
         ax.set(xlabel="time [s]", ylabel="acceleration [g]")
         ax.margins(x=0)
         return ax
 
-    def loop(self, ax: Axes | None = None) -> Axes:
+    def loop(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
         """Force of the whole slider over sliding displacement: the loop as data sheets draw it.
 
         With a spring, damper or stop its friction alone is drawn beside it, thin.
@@ -77,14 +79,14 @@ class Plotter:
         # Without them the two are one, but for rounding.
         if np.abs(force - friction).max(initial=0.0) > 1e-9 * np.abs(force).max(initial=0.0):
             ax.plot(sliding, 1e-3 * friction, lw=0.6, color="0.6", label="friction alone")
-            ax.plot(sliding, 1e-3 * force, lw=0.9, color="C0", label="slider")
+            ax.plot(sliding, 1e-3 * force, **{"lw": 0.9, "color": "C0", "label": "slider", **kwargs})
             ax.legend(loc="best", frameon=False)
         else:
-            ax.plot(sliding, 1e-3 * force, lw=0.9, color="C0")
+            ax.plot(sliding, 1e-3 * force, **{"lw": 0.9, "color": "C0", **kwargs})
         ax.set(xlabel="sliding displacement [mm]", ylabel="slider force [kN]")
         return ax
 
-    def orbit(self, ax: Axes | None = None) -> Axes:
+    def orbit(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
         """Sliding displacement along y over that along x, inside the circle of the gap where there is one.
 
         Raises
@@ -97,7 +99,7 @@ class Plotter:
         if "sliding_displacement_y_m" not in knots:
             raise ValueError("expected a response in two directions, found one in one")
         x, y = (1e3 * knots[f"sliding_displacement{axis}_m"] for axis in ("", "_y"))
-        ax.plot(x, y, lw=0.9)
+        ax.plot(x, y, **{"lw": 0.9, **kwargs})
         at = int(np.argmax(np.hypot(x, y)))
         ax.plot(x[at], y[at], "o", ms=4, color="C3", label=f"peak {np.hypot(x[at], y[at]):.4g} mm")
         gap = response.model.value("slider.gap")
@@ -108,46 +110,45 @@ class Plotter:
         ax.set(xlabel="sliding along x [mm]", ylabel="sliding along y [mm]", aspect="equal")
         return ax
 
-    def energy(self, ax: Axes | None = None) -> Axes:
+    def energy(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
         """What became of the energy put in, over time."""
         energy, ax = self._response.energy, axes_or_new(ax)
         time = self._response.knots["time_s"]
         parts = ["friction_j", "damping_j", "strain_j", "kinetic_j"]
         labels = ["friction", "damping", "strain", "kinetic"]
-        ax.stackplot(time, *[1e-3 * energy[part] for part in parts], labels=labels, alpha=0.7)
+        ax.stackplot(time, *[1e-3 * energy[part] for part in parts], **{"labels": labels, "alpha": 0.7, **kwargs})
         ax.plot(time, 1e-3 * energy["input_j"], "k", lw=0.8, label="input")
         ax.legend(loc="upper left", frameon=False)
         ax.set(xlabel="time [s]", ylabel="energy [kJ]")
         ax.margins(x=0)
         return ax
 
-    def drift(self, ax: Axes | None = None) -> Axes:
+    def drift(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
         """Drift of every storey over time."""
         knots, ax = self._response.knots, axes_or_new(ax)
         below = 0.0 * knots["time_s"]
         for number, floor in enumerate(_numbered(knots, "storey"), 1):
-            ax.plot(knots["time_s"], 1e3 * (floor - below), lw=0.8, label=f"storey {number}")
+            ax.plot(knots["time_s"], 1e3 * (floor - below), **{"lw": 0.8, "label": f"storey {number}", **kwargs})
             below = floor
         return _over_time(ax, "drift [mm]")
 
-    def surfaces(self, ax: Axes | None = None) -> Axes:
+    def surfaces(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
         """Displacement of every surface in series over time, and of all together."""
         knots, ax = self._response.knots, axes_or_new(ax)
-        ax.plot(
-            knots["time_s"], 1e3 * knots["sliding_displacement_m"], color="0.7", lw=2, label="together"
-        )
+        together = {"color": "0.7", "lw": 2, "label": "together", **kwargs}
+        ax.plot(knots["time_s"], 1e3 * knots["sliding_displacement_m"], **together)
         for number, surface in enumerate(_numbered(knots, "surface"), 1):
-            ax.plot(knots["time_s"], 1e3 * surface, lw=0.8, label=f"surface {number}")
+            ax.plot(knots["time_s"], 1e3 * surface, **{"lw": 0.8, "label": f"surface {number}", **kwargs})
         return _over_time(ax, "displacement [mm]")
 
-    def contents(self, ax: Axes | None = None) -> Axes:
+    def contents(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
         """Displacement of what slides on the floors over time, each over its floor."""
         knots, ax = self._response.knots, axes_or_new(ax)
         for number, contents in enumerate(_numbered(knots, "contents"), 1):
-            ax.plot(knots["time_s"], 1e3 * contents, lw=0.8, label=f"contents {number}")
+            ax.plot(knots["time_s"], 1e3 * contents, **{"lw": 0.8, "label": f"contents {number}", **kwargs})
         return _over_time(ax, "displacement over the floor [mm]")
 
-    def demand(self, ax: Axes | None = None) -> Axes:
+    def demand(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
         """Friction force over time between its bounds: static dashed, kinetic dotted, sliding shaded.
 
         The bounds are those of a level normal force; they are left out under vertical motion.
@@ -155,7 +156,7 @@ class Plotter:
         response, ax = self._response, axes_or_new(ax)
         knots = response.knots
         _shade(ax, knots)
-        ax.plot(knots["time_s"], 1e-3 * knots["friction_force_n"], lw=0.8)
+        ax.plot(knots["time_s"], 1e-3 * knots["friction_force_n"], **{"lw": 0.8, **kwargs})
         if response.motion.vertical_m_per_s2 is None:
             fixed, kinetic = response._core._friction_limits()
             for (positive, negative), style in [(fixed, "--"), (kinetic, ":")]:
@@ -163,7 +164,7 @@ class Plotter:
                     ax.axhline(1e-3 * value, color="0.4", ls=style, lw=0.8)
         return _over_time(ax, "friction force [kN]")
 
-    def floor_spectra(self, ax: Axes | None = None) -> Axes:
+    def floor_spectra(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
         """Response spectra of table, block and floors, of ``run(..., floor_spectrum=True)``.
 
         Raises
@@ -178,7 +179,7 @@ class Plotter:
         lines += [(f"floor {i}", values) for i, values in enumerate(spectra["storeys_acceleration_m_per_s2"], 1)]
         for label, values in lines:
             if values:
-                ax.plot(spectra["period_s"], np.asarray(values) / G, label=label)
+                ax.plot(spectra["period_s"], np.asarray(values) / G, **{"label": label, **kwargs})
         ax.set_xscale("log")
         ax.set(xlabel="period [s]", ylabel="spectral acceleration [g]")
         ax.legend(loc="best", frameon=False)
@@ -259,11 +260,74 @@ def _over_time(ax: Axes, label: str) -> Axes:
     return ax
 
 
+def draw_motion(motion: Motion, ax: Axes | None = None, **kwargs: Any) -> NDArray[np.object_] | Axes:
+    """Acceleration of all components over time; velocity and displacement below it on a figure of its own."""
+    parts = motion.components
+    drawn = [("acceleration [g]", "acceleration_m_per_s2", G)]
+    if ax is None:
+        import matplotlib.pyplot as plt
+
+        drawn += [("velocity [m/s]", "velocity_m_per_s", 1.0), ("displacement [mm]", "displacement_m", 1e-3)]
+        _, all_axes = plt.subplots(3, 1, figsize=(9, 6), layout="constrained", sharex=True)
+        axes = list(all_axes)
+    else:
+        axes = [ax]
+    for at, (label, name, unit) in zip(axes, drawn):
+        for component, one in parts.items():
+            style = {"lw": 0.8, "label": f"along {component}" if component != "vertical" else component}
+            at.plot(one.time_s, getattr(one, name) / unit, **{**style, **kwargs})
+        at.set(ylabel=label)
+        at.margins(x=0)
+    if len(parts) > 1:
+        axes[0].legend(loc="best", frameon=False)
+    axes[-1].set(xlabel="time [s]")
+    return axes[0] if ax is not None else np.array(axes, dtype=object)
+
+
+def draw_tornado(
+    table: Table, demand: str, ax: Axes | None = None, most: int = 20, **kwargs: Any
+) -> Axes:
+    """Bars of what 1 % more of each key changes, medians over the records, the longest on top."""
+    ax = axes_or_new(ax)
+    of_key: dict[str, list[float]] = {}
+    for path, of, change in zip(table["path"], table["demand"], table["relative"]):
+        if of == demand:
+            of_key.setdefault(path, []).append(change)
+    medians = {path: float(np.nanmedian(changes)) for path, changes in of_key.items() if np.isfinite(changes).any()}
+    ranked = sorted(medians.items(), key=lambda one: abs(one[1]))[-most:]
+    paths, changes = [path for path, _ in ranked], [change for _, change in ranked]
+    colours = ["C0" if change >= 0.0 else "C1" for change in changes]
+    ax.barh(paths, changes, **{"color": colours, **kwargs})
+    ax.axvline(0.0, color="k", lw=0.8)
+    ax.set(xlabel=f"{demand}: change in % for 1 % of the key")
+    return ax
+
+
+def draw_table(table: Table, x: str, y: str, by: str | None = None, ax: Axes | None = None, **kwargs: Any) -> Axes:
+    """One column over another: points, or lines where x rises for each value of a third."""
+    ax = axes_or_new(ax)
+    groups = [None] if by is None else list(dict.fromkeys(table[by]))
+    for group in groups:
+        rows = [True] * len(table) if by is None else [value == group for value in table[by]]
+        one, other = (np.asarray(table[name])[rows] for name in (x, y))
+        kind = "-" if len(one) > 1 and bool((np.diff(np.asarray(one, dtype=float)) > 0.0).all()) else "."
+        style = {} if by is None else {"label": str(group)}
+        ax.plot(one, other, kind, **{**style, **kwargs})
+    ax.set(xlabel=_titled(table, x), ylabel=_titled(table, y))
+    if by is not None and len(groups) <= 12:
+        ax.legend(loc="best", frameon=False, title=by)
+    return ax
+
+
+def _titled(table: Table, name: str) -> str:
+    return f"{name} [{table.units[name]}]" if name in table.units else name
+
+
 #: Units of measured quantities as figures show them, with what one of them is in SI
 _SHOWN = {"m": ("mm", 1e-3), "m/s2": ("g", G), "N": ("kN", 1e3)}
 
 
-def draw_curve(name: str, curve: Table, ax: Axes | None = None) -> Axes:
+def draw_curve(name: str, curve: Table, ax: Axes | None = None, **kwargs: Any) -> Axes:
     """One measured quantity beside what was computed; a cyclic test as its loop."""
     ax = axes_or_new(ax)
     columns = curve.columns
@@ -271,8 +335,9 @@ def draw_curve(name: str, curve: Table, ax: Axes | None = None) -> Axes:
     x, first, second = columns[1:4] if loop else columns[:3]
     unit, in_si = _SHOWN.get(curve.units.get(first, ""), (curve.units.get(first, ""), 1.0))
     across = 1e3 * curve[x] if loop else curve[x]
-    ax.plot(across, curve[first] / in_si, color="0.7", lw=2.5, label="measured")
-    ax.plot(across, curve[second] / in_si, color="C0", lw=0.9, label=second.removesuffix("_n"))
+    ax.plot(across, curve[first] / in_si, **{"color": "0.7", "lw": 2.5, "label": "measured", **kwargs})
+    computed = {"color": "C0", "lw": 0.9, "label": second.removesuffix("_n"), **kwargs}
+    ax.plot(across, curve[second] / in_si, **computed)
     quantity = "force" if loop else name.replace("_", " ")
     ax.set(xlabel="displacement [mm]" if loop else "time [s]", ylabel=f"{quantity} [{unit}]")
     if loop:
@@ -281,7 +346,7 @@ def draw_curve(name: str, curve: Table, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def draw_curves(curves: Mapping[str, Table]) -> NDArray[np.object_]:
+def draw_curves(curves: Mapping[str, Table], **kwargs: Any) -> NDArray[np.object_]:
     """All of them below one another."""
     import matplotlib.pyplot as plt
 
@@ -289,7 +354,7 @@ def draw_curves(curves: Mapping[str, Table]) -> NDArray[np.object_]:
     _, grid = plt.subplots(
         count, 1, figsize=(7, 2.6 * count), layout="constrained", squeeze=False, sharex=True
     )
-    axes = [draw_curve(name, curve, ax) for (name, curve), ax in zip(curves.items(), grid[:, 0])]
+    axes = [draw_curve(name, curve, ax, **kwargs) for (name, curve), ax in zip(curves.items(), grid[:, 0])]
     return np.array(axes, dtype=object)
 
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, overload
 
 from . import _core
+from ._request import wrong
 from ._result import in_a_line, in_html, warn_of
 from ._table import Columns, Event, Events
 
@@ -18,12 +21,29 @@ if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import NDArray
 
+    from ._assessment import Assessment
     from ._plot import Plotter
 
 
+@overload
 def run(
-    model: _core.Model, motion: _core.Motion | None = None, *, floor_spectrum: bool = False
-) -> Response:
+    model: _core.Model,
+    motion: _core.Motion | None = None,
+    *,
+    floor_spectrum: bool = False,
+    history: bool = True,
+    check: bool = True,
+) -> Response: ...
+@overload
+def run(model: _core.Model, motion: Mapping[str, _core.Motion]) -> Assessment: ...
+def run(
+    model: _core.Model,
+    motion: _core.Motion | Mapping[str, _core.Motion] | None = None,
+    *,
+    floor_spectrum: bool = False,
+    history: bool = True,
+    check: bool = True,
+) -> Response | Assessment:
     """Analyse a model on a motion, exactly, and judge the answer.
 
     Parameters
@@ -31,9 +51,14 @@ def run(
     model
         The model; its ``analysis.method`` and ``analysis.tail`` hold.
     motion
-        The motion of the table; the model's own if left out.
+        The motion of the table; the model's own if left out. Several by name are a suite, of which the answer
+        is that of ``suite``.
     floor_spectrum
         Whether response spectra of table, block and floors are wanted in ``summary``.
+    history
+        Whether histories are kept. Demands, counts and events are the same without, bit for bit.
+    check
+        Whether the answer is judged. Without history and check a call takes hardly longer than the analysis.
 
     Returns
     -------
@@ -64,9 +89,18 @@ def run(
     >>> float(abs(response.knots["friction_force_n"]).max()) == 0.1 * 325 * 9.80665
     True
     """
-    response = Response(_core.run(model, motion, floor_spectrum=floor_spectrum), model, floor_spectrum)
-    warn_of(response._core._noticed())
-    return response
+    if isinstance(motion, Mapping):
+        from ._assessment import suite
+
+        for name, asked, usual in [
+            ("floor_spectrum", floor_spectrum, False), ("history", history, True), ("check", check, True)
+        ]:
+            if asked is not usual:
+                raise wrong(name, "one motion beside it", f"{asked} with several")
+        return suite(model, motion)
+    core = _core.run(model, motion, floor_spectrum=floor_spectrum, history=history, check=check)
+    warn_of(core._noticed())
+    return Response(core, model, (floor_spectrum, history, check))
 
 
 class Response:
@@ -75,10 +109,11 @@ class Response:
     Two are equal where model and motion are. A response pickles as those, and is computed again.
     """
 
-    def __init__(self, core: _core.Response, model: _core.Model, floor_spectrum: bool) -> None:
+    def __init__(self, core: _core.Response, model: _core.Model, asked: tuple[bool, bool, bool]) -> None:
         self._core = core
         self._model = model
-        self._floor_spectrum = floor_spectrum
+        #: Floor spectra, history, check
+        self._asked = asked
 
     @property
     def model(self) -> _core.Model:
@@ -91,12 +126,12 @@ class Response:
         return self._core.motion
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _again, (self._model, self.motion, self._floor_spectrum)
+        return _again, (self._model, self.motion, *self._asked)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Response):
             return NotImplemented
-        same = self._model == other._model and self._floor_spectrum == other._floor_spectrum
+        same = self._model == other._model and self._asked == other._asked
         return same and self.motion == other.motion
 
     def __hash__(self) -> int:
@@ -118,7 +153,7 @@ class Response:
 
     @property
     def holds(self) -> bool | None:
-        """Whether the certificate holds; None of the stepwise method, which is not judged."""
+        """Whether the certificate holds; None of the stepwise method and of ``run(check=False)``, which are not judged."""
         return self._core.holds
 
     @property
@@ -172,6 +207,11 @@ class Response:
 
         return Plotter(self)
 
+    @cached_property
+    def figures(self) -> Mapping[str, str]:
+        """The figures of the report as SVG by name; a notebook shows the first."""
+        return MappingProxyType(dict(self._core._figures()))
+
     def to_pandas(self) -> pd.DataFrame:
         """The history as a data frame with the time as its index."""
         return self.history.to_pandas()
@@ -199,13 +239,17 @@ class Response:
 
         peak = 1e3 * self.summary["peak_sliding_displacement_m"]
         said = in_html(self.holds, self._core._noticed(), "The certificate")
-        return f"{said}<p><b>{escape(self._core.name)}</b>: peak sliding displacement {peak:.4g} mm</p>"
+        picture = next(iter(self.figures.values())) if self._asked[1:] == (True, True) else ""
+        told = f"<p><b>{escape(self._core.name)}</b>: peak sliding displacement {peak:.4g} mm</p>"
+        return said + told + picture
 
     def __repr__(self) -> str:
         said = in_a_line(self.holds, self._core._noticed())
         return f"<slipstick.Response {said}{self._core.name!r}, {len(self.events)} events>"
 
 
-def _again(model: _core.Model, motion: _core.Motion, floor_spectrum: bool) -> Response:
-    return run(model, motion, floor_spectrum=floor_spectrum)
+def _again(
+    model: _core.Model, motion: _core.Motion, floor_spectrum: bool, history: bool, check: bool
+) -> Response:
+    return run(model, motion, floor_spectrum=floor_spectrum, history=history, check=check)
 

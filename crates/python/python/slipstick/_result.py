@@ -11,7 +11,10 @@ from ._errors import SlipstickWarning
 from ._table import Table
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from os import PathLike
+
+    from matplotlib.axes import Axes
 
     import pandas as pd
     import xarray as xr
@@ -56,6 +59,26 @@ def in_html(holds: bool | None, of: list[Noticed], meaning: str) -> str:
     lines = [] if holds is None else [f"<b>{meaning} {'holds' if holds else 'DOES NOT HOLD'}</b>"]
     lines += [f"<b>{'Severe' if severe else 'Warning'}:</b> {escape(message)}" for _, message, severe in of]
     return "".join(f"<p>{line}</p>" for line in lines)
+
+
+def svg_of(draw: Callable[..., Axes]) -> str:
+    """What a plot draws, as SVG; nothing without Matplotlib, or where there is nothing to draw."""
+    try:
+        from matplotlib.backends.backend_svg import FigureCanvasSVG
+        from matplotlib.figure import Figure
+    except ImportError:
+        return ""
+    import io
+
+    figure = Figure(figsize=(6, 3.5), layout="constrained")
+    FigureCanvasSVG(figure)
+    try:
+        draw(ax=figure.add_subplot())
+    except ValueError:
+        return ""
+    text = io.StringIO()
+    figure.savefig(text, format="svg")
+    return text.getvalue()[text.getvalue().index("<svg") :]
 
 
 class Result:

@@ -9,15 +9,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _core
-from ._assessment import read_suite
+from ._assessment import plotted, read_suite
 from ._errors import InputError, RecordError
 from ._request import several, text_of, wrong
-from ._result import warn_of
+from ._result import svg_of, warn_of
 from ._table import Table
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from os import PathLike
+
+    from matplotlib.axes import Axes
 
 
 class Study(NamedTuple):
@@ -32,6 +34,45 @@ class Study(NamedTuple):
     failures: int
     #: What a person should know
     notices: list[str]
+
+    def plot(
+        self,
+        x: str | None = None,
+        y: str = "peak_sliding_displacement_m",
+        *,
+        by: str | None = None,
+        ax: Axes | None = None,
+        **kwargs: Any,
+    ) -> Axes:
+        """Draw one column of the runs over another in Matplotlib.
+
+        Parameters
+        ----------
+        x, y
+            Columns of ``table``; what is varied first, or the level, if left out.
+        by
+            A column whose values have lines of their own.
+        ax
+            Where it is drawn; a new figure if left out.
+        kwargs
+            What lines take: ``color``, ``lw``, ``marker``.
+
+        Returns
+        -------
+        Axes
+        """
+        if x is None:
+            told = [name for name in self.table if "." in name and not name.startswith(("block.", "x.", "y."))]
+            varied = [name for name in told if len(set(self.table[name])) > 1]
+            x = next(iter(varied), "level" if "level" in self.table else None)
+        return plotted(self.table, x, y, by, ax, **kwargs)
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        failed = f", {self.failures} without an answer" if self.failures else ""
+        said = "".join(f"<p>{escape(notice)}</p>" for notice in self.notices)
+        return f"<p>{self.runs} runs{failed}</p>{said}{svg_of(self.plot)}{self.summary._repr_html_()}"
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ use super::design::DesignReport;
 use super::fragility::{FragilityFamily, FragilityReport};
 use super::histories::HistoriesReport;
 use super::ida::IdaFamily;
+use super::sensitivity::SensitivityReport;
 use super::sheet::Sheet;
 use super::spectrum::SpectrumReport;
 use crate::display::DisplayUnits;
@@ -37,6 +38,9 @@ pub fn sheet(answer: &Answer, display: DisplayUnits) -> Sheet {
         Results::Spectrum(run) => {
             let records = &names;
             SpectrumReport { name, records, scaled, run, warnings, display }.sheet()
+        }
+        Results::Sensitivity(run) => {
+            SensitivityReport { name, scaled, run, warnings, display }.sheet()
         }
         Results::Ida { measure, demand, limit, fixed_levels, run } => IdaFamily {
             name,
@@ -101,6 +105,7 @@ pub fn tables(answer: Answer) -> Vec<Tabled> {
         Results::Spectrum(run) => {
             vec![tabled("spectrum", BOTH, run.table), tabled("runs", &BOTH[1..], run.rows)]
         }
+        Results::Sensitivity(run) => vec![tabled("sensitivity", BOTH, run.table)],
         Results::Ida { run, .. } => {
             let capacities = run.capacities.map(|table| tabled("capacities", &BOTH[..1], table));
             core::iter::once(tabled("ida", BOTH, run.rows)).chain(capacities).collect()

@@ -22,6 +22,8 @@ pub struct Axis {
     pub max: f64,
     /// Whether equal lengths are equal ratios; then `min > 0`.
     pub logarithmic: bool,
+    /// What stands at 1, 2, 3 … in the place of numbers; nothing of an axis of numbers.
+    pub names: Vec<String>,
 }
 
 impl Axis {
@@ -29,7 +31,7 @@ impl Axis {
     #[must_use]
     pub fn linear(label: impl Into<String>, min: f64, max: f64) -> Self {
         let (min, max) = usable(min, max);
-        Self { label: label.into(), min, max, logarithmic: false }
+        Self { label: label.into(), min, max, logarithmic: false, names: Vec::new() }
     }
 
     /// Wide enough for all values and a margin of 6 %.
@@ -62,6 +64,13 @@ impl Axis {
         Self { logarithmic, ..Self::linear(label, min, max) }
     }
 
+    /// Names at 1, 2, 3 …
+    #[must_use]
+    pub fn named(label: impl Into<String>, names: Vec<String>) -> Self {
+        let max = names.len() as f64 + 0.5;
+        Self { names, ..Self::linear(label, 0.5, max) }
+    }
+
     /// Where a value lies: 0 at `min`, 1 at `max`.
     #[must_use]
     pub fn fraction(&self, value: f64) -> f64 {
@@ -77,6 +86,11 @@ impl Axis {
     /// them; on a logarithmic axis 1, 2, 5 of each decade, with the other digits as minor marks.
     #[must_use]
     pub fn ticks(&self, target: usize) -> Vec<Tick> {
+        if !self.names.is_empty() {
+            let tick =
+                |(i, name): (usize, &String)| Tick { value: (i + 1) as f64, label: name.clone() };
+            return self.names.iter().enumerate().map(tick).collect();
+        }
         if self.logarithmic { self.logarithmic_ticks() } else { self.linear_ticks(target) }
     }
 

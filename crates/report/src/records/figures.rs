@@ -40,7 +40,9 @@ pub struct Histories<'a> {
 }
 
 impl Histories<'_> {
-    fn drawn(self) -> Drawn {
+    /// All of them as one figure.
+    #[must_use]
+    pub fn drawn(self) -> Drawn {
         let figures = self.motion.figures();
         let series = self.motion.series();
         let panel = |name: &str, quantity: Quantity, shown: Shown, peak: f64| {

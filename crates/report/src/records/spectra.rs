@@ -1,7 +1,7 @@
 //! Response spectra and Fourier spectra of channels as tables for other programs.
 
 use slipstick::motion::{FourierSpectrum, Ordinates, Spectrum};
-use slipstick::table::to_cell;
+use slipstick::table::{Table, to_cell};
 
 use crate::json::Json;
 
@@ -81,6 +81,37 @@ pub fn spectra_json(spectra: &[ChannelSpectrum]) -> String {
         ])
     };
     Json::List(spectra.iter().map(one).collect()).to_pretty()
+}
+
+/// Damping ratio, period and ordinates as columns, one row a period.
+#[must_use]
+pub fn spectrum_table(spectrum: &Spectrum) -> Table {
+    let n = spectrum.periods_s.len();
+    let damping = spectrum.damping_ratios.iter().flat_map(|ratio| core::iter::repeat_n(*ratio, n));
+    let periods = spectrum.damping_ratios.iter().flat_map(|_| spectrum.periods_s.iter().copied());
+    let mut table = Table::default();
+    table.numbers("damping_ratio", "", damping.collect()).numbers(
+        "period_s",
+        "s",
+        periods.collect(),
+    );
+    let units = ["m", "m/s", "m/s", "m/s2", "m/s2"];
+    for ((name, value), unit) in COLUMNS.into_iter().zip(units) {
+        table.numbers(name, unit, spectrum.ordinates.iter().map(value).collect());
+    }
+    table
+}
+
+/// Frequency and amplitude as columns, one row a frequency.
+#[must_use]
+pub fn fourier_table(spectrum: &FourierSpectrum) -> Table {
+    let mut table = Table::default();
+    table.numbers("frequency_hz", "Hz", spectrum.frequencies_hz().collect()).numbers(
+        "fourier_amplitude_m_per_s",
+        "m/s",
+        spectrum.amplitudes_m_per_s.clone(),
+    );
+    table
 }
 
 /// CSV: file, channel, frequency and amplitude, one row a frequency.

@@ -10,6 +10,7 @@ import { MODELS, START } from "./examples";
 import { Exports, menu } from "./exports";
 import { Histories } from "./histories";
 import { Intake } from "./intake";
+import { onRecord } from "./motion";
 import { Notices } from "./notices";
 import { Clock } from "./plots";
 import { Records } from "./records";
@@ -20,9 +21,10 @@ import { Stage } from "./stage";
 import { Steps } from "./steps";
 import { tabs } from "./studies";
 import type { StudyTab } from "./study";
+import { identity } from "./tab";
 import { TabBar } from "./tabbar";
 import uplotStyle from "uplot/dist/uPlot.min.css";
-import type { Answer, Display, Fault, Judgement, Setting } from "./types";
+import type { Answer, Display, Fault, Judgement, Run, Setting } from "./types";
 
 void uplotStyle;
 
@@ -33,6 +35,8 @@ export interface Options {
   records?: { name: string; bytes: Uint8Array }[];
   /** Whether the state is kept in the address. */
   address: boolean;
+  /** What is shown of the example until the module is there. */
+  first?: () => Promise<Answer>;
   /** Told of every state at rest. */
   onstate?: (state: { model: string; summary: string }) => void;
 }
@@ -62,6 +66,8 @@ export class App {
   private news: "" | "answer" | "judgement" = "";
   /** For the measurements: pictures drawn of new answers. */
   updates = 0;
+  /** Whether an answer of a module is drawn next, the first one. */
+  private answered: boolean | undefined;
 
   // Its parts.
   private readonly notices = new Notices();
@@ -87,7 +93,7 @@ export class App {
   // Elements that change.
   private readonly title = h("span", {}, "");
   private readonly headline = h("dl", { class: "headline" });
-  private readonly severe = h("div", { class: "severe", role: "region", "aria-label": "Severe warnings", hidden: true });
+  private readonly severe = h("div", { class: "severe", tabindex: 0, role: "region", "aria-label": "Severe warnings", hidden: true });
   private readonly certificate = h("section", { class: "certificate", "aria-label": "Certificate" });
   private readonly beside = h("div", {});
   private readonly events = h("div", { class: "table-scroll", tabindex: 0, role: "region", "aria-label": "Events" });
@@ -148,9 +154,10 @@ export class App {
     this.exports = new Exports({
       desk,
       text,
+      display: () => this.display,
       state: () => (this.judgement ? state() : undefined),
       records: () => this.records.bytes(),
-      scene: this.stage.canvas,
+      stage: this.stage,
       tables: [this.certificate, this.peaks.table],
       say,
       tell: (text) => this.notices.tell(text),
@@ -165,6 +172,9 @@ export class App {
       choice: (name) => this.records.choice(name),
       text,
       set: (settings) => this.set(settings),
+      load: (run) => this.load(run),
+      identity: (name) => identity(desk.records.get(name) ?? new Uint8Array()),
+      progress: (tab, text) => this.bar.progress(tab, text),
       changed: () => void this.remember(),
       say,
       fault,
@@ -184,6 +194,7 @@ export class App {
         this.select("study", true);
         void this.study.run();
       },
+      many: () => this.select("suite", true),
       listRecords: () => this.records.show(),
       fault,
     });
@@ -196,13 +207,32 @@ export class App {
   }
 
   private async begin(): Promise<void> {
-    void this.desk.helper.start();
     if (this.options.model !== undefined) this.text = this.options.model;
     else if (this.options.address && location.hash.length > 1) await this.fromAddress();
     this.editor.text = this.text;
     this.steps.opened(this.text);
     this.stage.play(!matchMedia("(prefers-reduced-motion: reduce)").matches);
+    results.loading(this.certificate, "nothing");
+    // The module is asked for after the first picture, which it would keep waiting on a slow network.
+    if (this.text === START && this.display === "si") await this.showFirst();
     this.wish();
+  }
+
+  /** Shows the example as it was computed when the page was built. */
+  private async showFirst(): Promise<void> {
+    try {
+      const answer = await this.options.first?.();
+      if (!answer) return;
+      this.show(answer);
+      results.loading(this.certificate, "built");
+      // It is drawn first; a page that is not looked at draws nothing.
+      await new Promise((done) => {
+        requestAnimationFrame(done);
+        setTimeout(done, 200);
+      });
+    } catch {
+      // The module computes the same.
+    }
   }
 
   // ---- layout
@@ -238,7 +268,6 @@ export class App {
     );
     this.select("motion", false);
     this.records.show();
-    results.certificate(this.certificate, undefined);
     this.stage.restyle();
   }
 
@@ -289,7 +318,7 @@ export class App {
       this.certificate,
       h("div", { class: "card pad" }, h("h2", {}, "Force on the slider"), this.stage.loopBox),
       h("div", { class: "card pad peaks" }, h("h2", {}, "Peaks"), this.peaks.table, this.peaks.warnings),
-      h("div", { class: "card pad" }, h("h2", {}, "Beside it"), h("label", { class: "switch" }, this.stepwise, "The paper's stepwise method"), this.beside),
+      h("div", { class: "card pad" }, h("h2", {}, "For comparison"), h("label", { class: "switch" }, this.stepwise, "The paper's stepwise method"), this.beside),
       h("details", { class: "card pad fold" }, h("summary", {}, "Events"), this.events),
     );
   }
@@ -410,6 +439,24 @@ export class App {
     this.wish();
   }
 
+  /** Shows a run of an analysis over many by itself. */
+  private load({ record, scale, friction, set }: Run): void {
+    const inputs = this.answer?.state.inputs ?? [];
+    const factor = inputs.find(({ path }) => path === `slider.bounds.${friction}`)?.value ?? 1;
+    // The coefficients of a bound, which are then those of the model.
+    const bounded = inputs.flatMap(({ path, value }): Setting[] => {
+      if (!/^slider\.(static|kinetic)_friction(\.(positive|negative|slow|fast))?$/.test(path) || typeof value !== "number") return [];
+      const own = set.find(([key]) => key === path)?.[1];
+      return [[path, String((own === undefined ? value : Number(own)) * factor)]];
+    });
+    const all = factor === 1 ? set : [...set.filter(([path]) => bounded.every(([other]) => other !== path)), ...bounded];
+    this.setText(record === null ? this.text : onRecord(this.text, this.records.choice(record), scale));
+    if (all.length > 0) this.set(all);
+    this.select("motion", true);
+    const cannot = factor === 1 && friction !== "nominal";
+    this.notices.tell(cannot ? `The run has ${friction} friction; shown is the model's own, with ${friction} friction beside it.` : `Shown: ${[record ?? "the model's motion", friction === "nominal" ? "" : `${friction} friction`].filter(Boolean).join(", ")}. Undo returns to what stood here.`);
+  }
+
   /** Takes a whole text that Reset returns to. */
   private open(text: string): void {
     this.steps.opened(text);
@@ -434,10 +481,16 @@ export class App {
     this.good = wish;
     this.notices.right();
     this.editor.right();
+    this.judgement = undefined;
+    if (this.desk.helper.early) results.loading(this.certificate, "answer");
+    else results.certificate(this.certificate, undefined);
+    this.answered ??= true;
+    this.show(answer);
+  }
+
+  private show(answer: Answer): void {
     const before = this.shown;
     this.answer = answer;
-    this.judgement = undefined;
-    results.certificate(this.certificate, undefined);
     const tableTimes = answer.tableTimes ?? before?.tableTimes ?? new Float64Array();
     const tableDisplacement = answer.tableDisplacement ?? before?.tableDisplacement ?? new Float64Array();
     let tablePeak = answer.tableDisplacement ? 0 : (before?.tablePeak ?? 0);
@@ -507,6 +560,10 @@ export class App {
       this.drawAnswer();
       this.updates++;
       if (this.updates === 1) performance.mark("first-picture");
+      if (this.answered) {
+        performance.mark("first-answer");
+        this.answered = false;
+      }
     }
     if (news && this.judgement) this.drawJudgement(this.judgement);
   }

@@ -3,7 +3,7 @@
 import { labelOf } from "./controls";
 import { type Desk, Ended, Helper, ModuleError } from "./desk";
 import { fill, h } from "./dom";
-import { subject } from "./tab";
+import { type Page, subject } from "./tab";
 import type { Answer, Display, Judgement, State } from "./types";
 
 /** What comparing needs of the page. */
@@ -39,7 +39,7 @@ export function differences(now: State, pinned: State): string[] {
     return input ? (input.shown ? `${input.shown} ${input.symbol ?? ""}`.trim() : input.text) : "none";
   };
   return [...new Set([...a.keys(), ...b.keys()])]
-    .filter((path) => words(a, path) !== words(b, path))
+    .filter((path) => path !== "name" && words(a, path) !== words(b, path))
     .map((path) => `${labelOf(path)}: ${words(a, path)}, in B ${words(b, path)}`);
 }
 
@@ -74,7 +74,8 @@ export class Compare {
   /** Computes B again where its units or the records are others now. */
   async update(): Promise<void> {
     const { page, text } = this;
-    const of = text === undefined ? "" : subject({ desk: page.desk, text: () => text }, page.display());
+    // Of a page it needs no more than these two.
+    const of = text === undefined ? "" : subject({ desk: page.desk, text: () => text } as Page, page.display());
     if (of === this.of) {
       this.draw();
       return;

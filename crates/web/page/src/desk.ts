@@ -2,11 +2,20 @@
 
 import type { Answer, Calls, Display, Fault, Judgement, Op, Reply, Setting } from "./types";
 
-/** How a build gets its module and makes its workers. */
-export interface Engine {
+/** A module, and what makes a worker for it. */
+export interface Part {
   module: () => Promise<WebAssembly.Module>;
   worker: () => Worker;
 }
+
+/** How a build gets its module and makes its workers. */
+export interface Engine extends Part {
+  /** A module that is there sooner and answers one analysis, unchecked. */
+  first?: Part;
+}
+
+/** What the first module answers. */
+const EARLY = new Set<Op>(["add", "remove", "hash", "analyse", "histories", "wait", "trap"]);
 
 /** An error of the module. */
 export class ModuleError extends Error {
@@ -41,11 +50,20 @@ export class Helper {
   onbusy: (busy: boolean) => void = () => {};
   /** Told of what was judged at rest. */
   onjudged: (number: number, found: Judgement | Fault) => void = () => {};
+  /** Told where the whole module has taken the first one's place, and knows of no answer yet. */
+  onwhole: () => unknown = () => {};
+  /** Whether the first module is at work. */
+  early: boolean;
+  private whole: "wanted" | "here" | undefined;
 
+  /** `early`: with the first module until the whole one is there. */
   constructor(
     private readonly engine: Engine,
     private readonly records: Map<string, Uint8Array>,
-  ) {}
+    early = false,
+  ) {
+    this.early = early && engine.first !== undefined;
+  }
 
   get idle(): boolean {
     return !this.current && !this.judging && this.queue.length === 0;
@@ -54,7 +72,8 @@ export class Helper {
   /** Makes the worker before it is needed. */
   async start(): Promise<void> {
     if (this.worker) return;
-    const worker = this.engine.worker();
+    const part = (this.early && this.engine.first) || this.engine;
+    const worker = part.worker();
     this.worker = worker;
     worker.onmessage = (event: MessageEvent<Reply>) => this.hear(event.data);
     worker.onerror = (event) => {
@@ -63,9 +82,9 @@ export class Helper {
     };
     let module: WebAssembly.Module;
     try {
-      module = await this.engine.module();
+      module = await part.module();
     } catch (error) {
-      this.lose(`expected a browser with WebAssembly and its vector instructions, found ${String(error)}`);
+      if (this.worker === worker) this.lose(`expected a browser with WebAssembly and its vector instructions, found ${String(error)}`);
       return;
     }
     if (this.worker !== worker) return;
@@ -103,12 +122,45 @@ export class Helper {
 
   private send(): void {
     if (!this.ready || !this.worker || this.current) return;
-    const waiting = this.queue.shift();
+    if (this.early && this.whole === "here") {
+      this.widen();
+      return;
+    }
+    const at = this.early ? this.queue.findIndex(({ op }) => EARLY.has(op)) : 0;
+    if (at !== 0) void this.wantWhole();
+    const [waiting] = at < 0 ? [] : this.queue.splice(at, 1);
     if (!waiting) return;
     const id = this.next++;
     this.current = { ...waiting, id };
     this.watch();
     this.worker.postMessage({ id, op: waiting.op, args: waiting.args });
+  }
+
+  /** Asks for the whole module, once. */
+  private async wantWhole(): Promise<void> {
+    if (this.whole) return;
+    this.whole = "wanted";
+    try {
+      await this.engine.module();
+      this.whole = "here";
+      this.send();
+    } catch (error) {
+      this.whole = undefined;
+      const fault = { message: `expected the rest of the page, which is fetched where it is first used, found ${String(error)}` };
+      const left = this.queue.filter(({ op }) => !EARLY.has(op));
+      this.queue = this.queue.filter(({ op }) => EARLY.has(op));
+      for (const waiting of left) waiting.failed(new ModuleError(fault));
+    }
+  }
+
+  /** Goes on with the whole module. */
+  private widen(): void {
+    this.worker?.terminate();
+    this.worker = undefined;
+    this.ready = false;
+    this.early = false;
+    void this.start();
+    this.onwhole();
   }
 
   private watch(): void {
@@ -160,6 +212,8 @@ export class Helper {
     } else {
       current.done(reply.result);
     }
+    // What is shown is to be checked, by what only the whole module has.
+    if (this.early) void this.wantWhole();
     this.send();
   }
 
@@ -199,7 +253,12 @@ export class Desk {
   onrest: () => void = () => {};
 
   constructor(readonly engine: Engine) {
-    this.helper = new Helper(engine, this.records);
+    this.helper = new Helper(engine, this.records, true);
+    // An answer of the first module that has just come is taken in before it is asked for again.
+    this.helper.onwhole = () =>
+      setTimeout(() => {
+        if (this.shown && !this.wish && !this.asked) this.want(this.shown);
+      });
     this.helper.onjudged = (number, found) => {
       if (this.shown?.number === number && number === this.number) this.settle(this.shown, found);
     };

@@ -52,3 +52,26 @@ export function digits(value: number, count = 4): string {
   const text = size >= 6 || size < -5 ? value.toExponential(count - 1) : value.toFixed(Math.max(0, count - 1 - size));
   return text.replace("-", "−");
 }
+
+/** Hands a drawing over as a picture, three times as large as it is. */
+export async function png({ id, caption, svg }: { id: string; caption: string; svg: string }): Promise<void> {
+  const image = drawing(svg, caption);
+  await image.decode();
+  const [, , , width = "800", height = "400"] = /viewBox="(\S+) (\S+) ([\d.]+) ([\d.]+)"/.exec(svg) ?? [];
+  const canvas = h("canvas", { width: Math.round(Number(width) * 3), height: Math.round(Number(height) * 3) });
+  const c = canvas.getContext("2d")!;
+  c.fillStyle = "#fff";
+  c.fillRect(0, 0, canvas.width, canvas.height);
+  c.drawImage(image, 0, 0, canvas.width, canvas.height);
+  await savePng(canvas, `${id}.png`);
+}
+
+/** Hands a canvas over as a picture. */
+export function savePng(canvas: HTMLCanvasElement, name: string): Promise<void> {
+  return new Promise((done) =>
+    canvas.toBlob((blob) => {
+      if (blob) download(name, blob, "image/png");
+      done();
+    }),
+  );
+}

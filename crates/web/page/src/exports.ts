@@ -2,19 +2,22 @@
 
 import { strToU8, zipSync } from "fflate";
 import { type Desk, ModuleError } from "./desk";
-import { download, drawing, fill, h } from "./dom";
-import type { Drawing, Fault, State } from "./types";
+import { download, drawing, fill, h, png, savePng } from "./dom";
+import { film } from "./film";
+import type { Stage } from "./stage";
+import type { Display, Drawing, Fault, State } from "./types";
 
 /** What the exports need of the page. */
 export interface Shelf {
   desk: Desk;
   text: () => string;
+  display: () => Display;
   /** Of a judged answer. */
   state: () => State | undefined;
   /** The files of the motion, by their paths in the model. */
   records: () => [path: string, bytes: Uint8Array][];
-  /** The animation as it stands. */
-  scene: HTMLCanvasElement;
+  /** The animation. */
+  stage: Stage;
   /** What stands before the figures on paper. */
   tables: HTMLElement[];
   say: (text: string) => void;
@@ -26,7 +29,16 @@ export interface Shelf {
 /** How long the page rests before its print is prepared, in ms. */
 const PRINT_REST_MS = 900;
 
-const COMMAND = "slipstick run model.toml --out out";
+/** The command that repeats the page's run. */
+const command = (display: Display) => `slipstick run model.toml${display === "si" ? "" : ` --display-units ${display}`} --out out`;
+
+/** Hands over a ZIP of texts and bytes by their paths: what a command needs, the command, and what the page made of it. */
+export function hand(name: string, commands: string[], needed: Record<string, string | Uint8Array>, made: Record<string, string>): void {
+  const bytes = (data: string | Uint8Array) => (typeof data === "string" ? strToU8(data) : data);
+  const under = Object.entries(made).map(([file, text]) => [`page/${file}`, text] as const);
+  const all = [...Object.entries(needed), ["command.txt", `${commands.join("\n")}\n`] as const, ...under];
+  download(name, zipSync(Object.fromEntries(all.map(([path, data]) => [path, bytes(data)]))) as BlobPart, "application/zip");
+}
 
 /** Folds a menu up where a person chooses from it or leaves it. */
 export function menu(label: string, ...buttons: HTMLElement[]): HTMLDetailsElement {
@@ -60,8 +72,9 @@ export class Exports {
       button("Report (HTML)", () => this.file("report.html", "text/html")),
       button("Figures (SVG)", () => this.figures("svg")),
       button("Figures (PNG)", () => this.figures("png")),
-      button("Animation as it stands (PNG)", () => this.savePng(page.scene, "animation.png")),
-      button("Copy the command that repeats it", () => this.copy(COMMAND, "The command is in the clipboard.")),
+      button("Animation as it stands (PNG)", () => savePng(page.stage.canvas, "animation.png")),
+      button("Animation (film)", () => this.film()),
+      button("Copy the command that repeats it", () => this.copy(this.command, "The command is in the clipboard. Model and records for it are in the ZIP.")),
       button("Print", () => this.print()),
     );
   }
@@ -82,8 +95,12 @@ export class Exports {
     this.timer = setTimeout(() => void this.prepare().catch(() => {}), PRINT_REST_MS);
   }
 
+  private get command(): string {
+    return command(this.page.display());
+  }
+
   private made(name: string): Promise<string> {
-    return this.page.desk.helper.call("file", name, this.page.text(), COMMAND);
+    return this.page.desk.helper.call("file", name, this.page.text(), this.command);
   }
 
   private async drawings(): Promise<Drawing[]> {
@@ -101,13 +118,9 @@ export class Exports {
   /** Model, records, what came of them, and the command that makes it again. */
   private async everything(): Promise<void> {
     try {
-      const files: Record<string, Uint8Array> = {
-        "model.toml": strToU8(this.page.text()),
-        "command.txt": strToU8(`${COMMAND}\n`),
-        ...Object.fromEntries(this.page.records()),
-      };
-      for (const name of ["summary.json", "history.csv", "events.csv", "report.html"]) files[`page/${name}`] = strToU8(await this.made(name));
-      download("slipstick.zip", zipSync(files) as BlobPart, "application/zip");
+      const made: Record<string, string> = {};
+      for (const name of ["summary.json", "history.csv", "events.csv", "report.html"]) made[name] = await this.made(name);
+      hand("slipstick.zip", [this.command], { "model.toml": this.page.text(), ...Object.fromEntries(this.page.records()) }, made);
     } catch (error) {
       if (error instanceof ModuleError) this.page.fault(error.fault);
     }
@@ -117,32 +130,23 @@ export class Exports {
     try {
       for (const drawn of await this.drawings()) {
         if (kind === "svg") download(`${drawn.id}.svg`, drawn.svg, "image/svg+xml");
-        else await this.png(drawn);
+        else await png(drawn);
       }
     } catch (error) {
       if (error instanceof ModuleError) this.page.fault(error.fault);
     }
   }
 
-  private async png(drawn: Drawing): Promise<void> {
-    const image = drawing(drawn.svg, drawn.caption);
-    await image.decode();
-    const [, , , width = "800", height = "400"] = /viewBox="(\S+) (\S+) ([\d.]+) ([\d.]+)"/.exec(drawn.svg) ?? [];
-    const canvas = h("canvas", { width: Math.round(Number(width) * 3), height: Math.round(Number(height) * 3) });
-    const c = canvas.getContext("2d")!;
-    c.fillStyle = "#fff";
-    c.fillRect(0, 0, canvas.width, canvas.height);
-    c.drawImage(image, 0, 0, canvas.width, canvas.height);
-    await this.savePng(canvas, `${drawn.id}.png`);
-  }
-
-  private savePng(canvas: HTMLCanvasElement, name: string): Promise<void> {
-    return new Promise((done) =>
-      canvas.toBlob((blob) => {
-        if (blob) download(name, blob, "image/png");
-        done();
-      }),
-    );
+  /** The part that is shown, else what is around the peak. */
+  private async film(): Promise<void> {
+    const state = this.page.state();
+    if (!state) return;
+    const { stage } = this.page;
+    this.page.say("The film is made as the animation plays.");
+    this.page.tell("The film is made as the animation plays; pause ends it.");
+    const made = await film(stage, `${state.name}: ${state.motion.words}`, stage.span);
+    if (made) download(`animation.${made.ending}`, made.blob, made.blob.type);
+    else this.page.fault({ message: "Animation: expected a browser that records films, found none; take a picture instead" });
   }
 
   private async prepare(): Promise<void> {

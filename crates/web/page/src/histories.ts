@@ -116,7 +116,7 @@ export class Histories {
     ];
     if (storeys > 0) {
       const roof = storey(answer.storeyAcceleration, storeys - 1, storeys);
-      lines.push({ label: storeys > 1 ? "roof" : "storey", colour: colours.roof!, values: roof, width: 1 });
+      lines.push({ label: "roof", colour: colours.roof!, values: roof, width: 1 });
     }
     this.acceleration.show({
       time: answer.time,

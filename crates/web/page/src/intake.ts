@@ -23,6 +23,8 @@ export interface Taking {
   take: (record: RecordChoice) => void;
   wish: () => void;
   study: (plan: string) => void;
+  /** Several records came at once. */
+  many: () => void;
   listRecords: () => void;
   fault: (fault: Fault) => void;
 }
@@ -31,11 +33,15 @@ export class Intake {
   /** Records that the address names and that are not here. */
   wanted: Shared["records"] = [];
 
+  /** What was said of a file of those that come together: it is tried for the next ones. */
+  private answered: { units: string; dt: string } | undefined;
+
   constructor(private readonly page: Taking) {}
 
   /** Files that were dropped or opened: models, plans and records. */
   async files(files: File[]): Promise<void> {
-    let last: RecordChoice | undefined;
+    const taken: RecordChoice[] = [];
+    this.answered = undefined;
     let plan: string | undefined;
     for (const file of files) {
       try {
@@ -59,7 +65,8 @@ export class Intake {
           this.page.wish();
           continue;
         }
-        last = (await this.record(file.name, bytes)) ?? last;
+        const choice = await this.record(file.name, bytes);
+        if (choice) taken.push(choice);
       } catch (error) {
         if (error instanceof ModuleError) this.page.fault(error.fault);
         else if (!(error instanceof Ended)) this.page.fault({ message: `${file.name}: ${String(error)}` });
@@ -67,7 +74,8 @@ export class Intake {
     }
     this.page.listRecords();
     if (plan !== undefined) this.page.study(plan);
-    else if (last) this.page.take(last);
+    else if (taken.length > 1) this.page.many();
+    else if (taken[0]) this.page.take(taken[0]);
   }
 
   /** Takes a record in; asks for what its file does not say. */
@@ -100,7 +108,7 @@ export class Intake {
         const found = [...new Set(inspected.channels.map((channel) => channel.quantity))].join(", ");
         throw new ModuleError({ message: `${name}: expected a channel of acceleration, found ${found}` });
       } else if (inspected || (fault && asks(fault.message))) {
-        choice = known && !inspected ? { name, units: known.units, dt: known.dt } : await this.ask(name, inspected, fault);
+        choice = known && !inspected ? { name, units: known.units, dt: known.dt } : ((await this.asBefore(name)) ?? (await this.ask(name, inspected, fault)));
       } else if (fault) throw new ModuleError(fault);
     } finally {
       if (!choice) {
@@ -118,6 +126,20 @@ export class Intake {
       return undefined;
     }
     return choice;
+  }
+
+  /** What was said of the file before it, where that says all of this one. */
+  private async asBefore(name: string): Promise<RecordChoice | null> {
+    if (!this.answered) return null;
+    const { units, dt } = this.answered;
+    try {
+      const read = await this.page.desk.helper.call("inspect", name, units, dt);
+      refuseLong(name, read);
+      return read.plain ? { name, ...(units ? { units } : {}), ...(dt ? { dt } : {}) } : null;
+    } catch (error) {
+      if (error instanceof ModuleError) return null;
+      throw error;
+    }
   }
 
   /** Asks for channel, units and step where the file is silent. */
@@ -181,6 +203,7 @@ export class Intake {
               ...(dt.value.trim() ? { dt: dt.value.trim() } : {}),
               ...(read.channels.length > 1 ? { channel: channel.value || usable[0]!.name } : {}),
             };
+            this.answered = { units: units.value.trim(), dt: dt.value.trim() };
             dialog.close();
           },
           (error: unknown) => {

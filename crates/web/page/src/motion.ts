@@ -35,12 +35,13 @@ function withMotion(text: string, motion: string[]): string {
   return `${parts.join("\n\n")}\n`;
 }
 
-/** The model on a record as it was recorded. */
-export function onRecord(text: string, record: RecordChoice): string {
+/** The model on a record, as it was recorded or times a factor. */
+export function onRecord(text: string, record: RecordChoice, scale = 1): string {
   const lines = [`record = ${quoted(record.name)}`];
   if (record.units) lines.push(`units = ${quoted(record.units)}`);
   if (record.dt) lines.push(`dt = ${quoted(record.dt)}`);
   if (record.channel) lines.push(`channel = ${quoted(record.channel)}`);
+  if (scale !== 1) lines.push(`scale = ${scale}`);
   return withMotion(text, lines);
 }
 

@@ -3,6 +3,14 @@
 import { digits, fill, h } from "./dom";
 import type { Answer, Judgement, State, Warning } from "./types";
 
+/** What the figures of the check say. */
+const MEANINGS: Record<string, string> = {
+  "Equilibrium residual": "Largest difference from an integration by another method, as a share of the peak",
+  "Friction excess": "Largest excess of the force on the slider over what friction can give, as a share of it",
+  "Energy balance error": "What went in and is found nowhere, as a share of the energy",
+  "Demands error": "Largest difference of a printed figure from the same figure computed anew, as a share of it",
+};
+
 /** A figure that is read first: its value in SI, and how it is written. */
 interface Figure {
   label: string;
@@ -12,6 +20,9 @@ interface Figure {
   over?: boolean;
 }
 
+/** Share of the peak below which a residual is that of rounding. */
+const ROUNDING = 1e-9;
+
 function figures({ headline, units, structure }: State): Figure[] {
   const length = (label: string, value: number): Figure => ({ label, value, text: digits(value / units.length.in_si), unit: units.length.symbol });
   const acceleration = (label: string, value: number): Figure => ({ label, value, text: digits(value / units.acceleration.in_si), unit: units.acceleration.symbol });
@@ -19,7 +30,8 @@ function figures({ headline, units, structure }: State): Figure[] {
   const gap = structure.gap_m !== null && gapRatio !== null;
   return [
     length("Peak sliding", headline.peak_m),
-    length("Residual", headline.residual_m),
+    // What is left of a return to where it stood is rounding.
+    length("Residual", Math.abs(headline.residual_m) < ROUNDING * headline.peak_m ? 0 : headline.residual_m),
     gap ? { label: "Gap used", value: gapRatio, text: digits(100 * gapRatio, 3), unit: "%", over: gapRatio > 1 } : { label: "Times it slides", value: slips, text: String(slips), unit: "" },
     roof === null ? acceleration("Block accel\u00aderation", headline.block_m_per_s2) : acceleration("Roof accel\u00aderation", roof),
     ...(roof === null ? [] : [{ label: "Base shear / weight", value: baseShear, text: digits(baseShear, 3), unit: "" }]),
@@ -111,13 +123,20 @@ export function sentence({ headline, units }: State, holds: boolean | null | und
   return `Peak sliding displacement ${length(headline.peak_m)}, residual ${length(headline.residual_m)}. ${checked}`;
 }
 
-/** What the figures of the check say. */
-const MEANINGS: Record<string, string> = {
-  "Equilibrium residual": "Largest difference from an integration by another method, as a share of the peak",
-  "Friction excess": "Largest excess of the force on the slider over what friction can give, as a share of it",
-  "Energy balance error": "What went in and is found nowhere, as a share of the energy",
-  "Demands error": "Largest difference of a printed figure from the same figure computed anew, as a share of it",
+/** What is said of a picture while the page loads: that there is none, that it is of the build, that it is not checked. */
+const LOADING = {
+  nothing: "The solver is on its way.",
+  built: "This picture was computed when the page was built. It is computed here as soon as the solver has come, and what you change is answered then.",
+  answer: "Not yet checked: the check, and the analyses over many runs, are on their way.",
 };
+
+/** That a part of the page is on its way. */
+export function loading(into: HTMLElement, shown: keyof typeof LOADING): void {
+  if (into.dataset.state === shown) return;
+  into.dataset.state = shown;
+  into.className = "certificate";
+  fill(into, h("strong", {}, "Loading"), h("span", {}, LOADING[shown]));
+}
 
 /** The certificate of a judged answer; that there is none yet, without one. `last`: of the last good state. */
 export function certificate(into: HTMLElement, judgement: Judgement | undefined, last = false): void {

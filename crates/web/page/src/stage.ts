@@ -31,7 +31,7 @@ export class Stage {
   /** It has to be drawn again. */
   stale = true;
   playing = false;
-  private speed = 1;
+  speed = 1;
   private shown: Shown | undefined;
   private pinned: Answer | undefined;
   private readonly legend: Legend;
@@ -168,6 +168,13 @@ export class Stage {
       const start = Math.min(Math.max(0, this.time - span / 2), end - span);
       clock.zoom([start, start + span]);
     }
+  }
+
+  /** The part that is shown; without a zoom, twelve seconds around the peak. */
+  get span(): [number, number] {
+    if (this.clock.zoomed) return this.clock.zoomed;
+    const peak = this.shown?.answer.state.headline.peakTime_s ?? 0;
+    return [Math.max(0, peak - 4), Math.min(this.end, peak + 8)];
   }
 
   private get end(): number {

@@ -4,10 +4,17 @@ import { StudyTab } from "./study";
 import { SuiteTab } from "./suite";
 import { SweepTab } from "./sweep";
 import type { Page, Tab } from "./tab";
+import { Workbench } from "./workbench";
 
 const SUITES = [["suite", "Suite"], ["spectrum", "Spectrum"], ["ida", "IDA"], ["fragility", "Fragility"], ["design", "Design"]] as const;
 
 export function tabs(page: Page): { all: Tab[]; study: StudyTab } {
   const study = new StudyTab(page);
-  return { all: [new SweepTab(page), ...SUITES.map(([id, label]) => new SuiteTab(page, id, label)), study], study };
+  const bench = new Workbench(page);
+  const all: Tab[] = [new SweepTab(page), ...SUITES.map(([id, label]) => new SuiteTab(page, id, label, bench)), study];
+  bench.onchoice = () => {
+    for (const tab of all) tab.update?.();
+    page.changed();
+  };
+  return { all, study };
 }

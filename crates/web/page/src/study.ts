@@ -2,14 +2,17 @@
 
 import { ModuleError, Pool } from "./desk";
 import { download, h } from "./dom";
+import { Explorer } from "./explore";
+import { hand } from "./exports";
 import { type Page, Progress, Result, sheetElement, subject, type Tab } from "./tab";
+import type { Sheet } from "./types";
 
 export class StudyTab implements Tab {
   readonly id = "study";
   readonly label = "Study";
   readonly element: HTMLElement;
   private readonly text = h("textarea", { "aria-label": "Plan", spellcheck: "false" });
-  private readonly progress = new Progress();
+  private readonly progress = new Progress((text) => this.page.progress(this.id, text));
   private readonly result = new Result();
   private readonly go = h("button", { type: "button", class: "main" }, "Run");
   private readonly pool: Pool;
@@ -69,7 +72,8 @@ export class StudyTab implements Tab {
       const names = this.page.records().map((record) => record.name);
       const of: [string, string, string[]] = [this.text.value, this.page.text(), names];
       const sheet = await this.pool.call("study", ...of, await this.rows(...of), this.page.display());
-      this.result.show(asked, sheetElement(sheet), h("div", { class: "actions" }, h("button", { type: "button", onclick: () => download("study-report.html", sheet.html, "text/html") }, "report.html")));
+      const runs = new Explorer(sheet.runs, this.id, "a click shows the run by itself", (_, row) => void this.take(of, row), [/^level$/, /^peak_sliding_displacement_m$/]);
+      this.result.show(asked, sheetElement(sheet), h("div", { class: "card pad" }, runs.element), h("div", { class: "actions" }, h("button", { type: "button", onclick: () => this.everything(of, sheet) }, "Everything (ZIP)"), h("button", { type: "button", onclick: () => download("study-report.html", sheet.html, "text/html") }, "report.html")));
       this.update();
       this.page.say(`The study is done. ${sheet.verdict[0] ?? sheet.line}`);
     } catch (error) {
@@ -86,6 +90,22 @@ export class StudyTab implements Tab {
       this.running = false;
       this.progress.end();
       this.go.disabled = false;
+    }
+  }
+
+  /** The plan with its model by the name that the plan calls it, and the records on the page. */
+  private everything([plan, text, names]: [plan: string, text: string, names: string[]], sheet: Sheet): void {
+    const model = /^\s*model\s*=\s*"([^"]*)"/m.exec(plan)?.[1] ?? "model.toml";
+    const patterns = /^\s*\[records\]/m.test(plan);
+    const records = patterns ? names.flatMap((name): [string, Uint8Array][] => [[name.replace(/^.*\//, ""), this.page.desk.records.get(name) ?? new Uint8Array()]]) : [];
+    hand("study.zip", sheet.commands, { "plan.toml": plan, [model]: text, ...Object.fromEntries(records) }, { "report.html": sheet.html });
+  }
+
+  private async take(of: [plan: string, text: string, names: string[]], run: number): Promise<void> {
+    try {
+      this.page.load(await this.page.desk.helper.call("studyRun", ...of, run));
+    } catch (error) {
+      if (error instanceof ModuleError) this.page.fault(error.fault);
     }
   }
 

@@ -2,8 +2,12 @@
 
 import { Ended, Helper, ModuleError } from "./desk";
 import { download, fill, h } from "./dom";
-import { type Page, Progress, Result, sheetElement, subject, type Tab } from "./tab";
-import type { FormField, Setting, Sheet } from "./types";
+import { hand } from "./exports";
+import { type Page, Progress, Result, sheetElement, subject, type Tab, value } from "./tab";
+import { picker } from "./pickers";
+import { Explorer } from "./explore";
+import type { Workbench } from "./workbench";
+import type { FormField, RunTable, Setting, Sheet, State } from "./types";
 
 /** What is typed or chosen in the form for a field. */
 type Entry = HTMLInputElement | HTMLSelectElement | HTMLTextAreaElement;
@@ -40,12 +44,11 @@ export class SuiteTab implements Tab {
   readonly element: HTMLElement;
   private fields: [FormField, Entry][] = [];
   private readonly asked = h("div", {}, h("p", { class: "drop-hint" }, "Loading"));
-  private readonly suite = h("ul", { class: "records" });
-  private readonly progress = new Progress();
+  private readonly suite = h("div", {});
+  private readonly progress = new Progress((text) => this.page.progress(this.id, text));
   private readonly result = new Result();
   private wanted: Record<string, string> = {};
   private readonly go = h("button", { type: "submit", class: "main", disabled: true }, "Run");
-  private readonly chosen = new Map<string, boolean>();
   private helper: Helper | undefined;
   private opened = false;
 
@@ -53,12 +56,13 @@ export class SuiteTab implements Tab {
     private readonly page: Page,
     readonly id: string,
     readonly label: string,
+    private readonly bench: Workbench,
   ) {
     const form = h(
       "form",
       {},
       this.asked,
-      h("fieldset", { class: "group" }, h("legend", {}, "Records"), this.suite),
+      this.suite,
       h("div", { class: "actions" }, this.go, h("button", { type: "button", onclick: () => void this.exportPlan() }, "Plan (TOML)")),
       this.progress.element,
     );
@@ -74,14 +78,15 @@ export class SuiteTab implements Tab {
 
   /** Makes the form; what need not be said stands folded below. */
   private async build(): Promise<void> {
-    const { about, fields } = await this.page.desk.helper.call("form", this.id, this.page.text());
+    const { about, fields, demands } = await this.page.desk.helper.call("form", this.id, this.page.text(), this.page.display());
     this.fields = fields.map((field) => [field, entry(field)]);
-    const label = ([field, input]: [FormField, Entry]) => h("label", { class: "field" }, h("span", {}, field.label), input, h("small", { class: "drop-hint" }, field.about));
+    const label = ([field, input]: [FormField, Entry]) => h("div", {}, h("label", { class: "field" }, h("span", {}, field.label), input, h("small", { class: "drop-hint" }, field.about)), picker(field, input, { demands, state: this.page.state }));
     const [first, more] = [this.fields.filter(([field]) => field.start), this.fields.filter(([field]) => !field.start)];
     fill(this.asked, h("p", { class: "drop-hint" }, about), ...first.map(label), more.length > 0 ? h("details", { class: "fold" }, h("summary", {}, "More"), ...more.map(label)) : "");
     this.go.disabled = false;
     this.restore(this.wanted);
     this.update();
+    if (!this.element.hidden) this.stand();
   }
 
   private get subject(): string {
@@ -90,6 +95,7 @@ export class SuiteTab implements Tab {
 
   private changed(): void {
     this.update();
+    this.stand();
     this.page.changed();
   }
 
@@ -98,14 +104,15 @@ export class SuiteTab implements Tab {
   }
 
   settings(): Record<string, string> {
-    const left = this.page.records().filter(({ name }) => this.chosen.get(name) === false).map(({ name }) => name);
+    const left = this.bench.without();
     const fields = this.fields.flatMap(([{ name, start }, input]) => (valueOf(input) === start ? [] : [[name, valueOf(input)]]));
     return { ...Object.fromEntries(fields), ...(left.length > 0 ? { "without records": left.join("\n") } : {}) };
   }
 
   restore(settings: Record<string, string>): void {
     this.wanted = settings;
-    for (const name of settings["without records"]?.split("\n") ?? []) this.chosen.set(name, false);
+    const left = settings["without records"]?.split("\n") ?? [];
+    if (left.length > 0) this.bench.leave(left);
     for (const [{ name, start }, input] of this.fields) setValue(input, settings[name] ?? start);
   }
 
@@ -127,7 +134,7 @@ export class SuiteTab implements Tab {
   }
 
   private records(): string[] {
-    return this.page.records().map((record) => record.name).filter((name) => this.chosen.get(name) ?? true);
+    return this.bench.names();
   }
 
   open(): void {
@@ -138,14 +145,14 @@ export class SuiteTab implements Tab {
       void this.build();
     }
     this.update();
-    fill(
-      this.suite,
-      ...this.page.records().map(({ name, label }) => {
-        const box = h("input", { type: "checkbox", checked: this.chosen.get(name) ?? true });
-        box.addEventListener("change", () => this.chosen.set(name, box.checked));
-        return h("li", {}, h("label", { class: "switch" }, box, label));
-      }),
-    );
+    this.stand();
+  }
+
+  /** The records stand here, with factors to what is asked here. */
+  private stand(): void {
+    const of = (name: string) => this.fields.find(([field]) => field.name === name)?.[1];
+    const said = (name: string) => of(name)?.value ?? "";
+    this.bench.stand(this.suite, { measure: said("measure") || "PGA", level: said("scale-to") });
   }
 
   private async run(): Promise<void> {
@@ -158,8 +165,9 @@ export class SuiteTab implements Tab {
     this.go.disabled = true;
     const of = this.subject;
     try {
-      const sheet = await helper.call("assess", this.id, this.page.text(), this.options(), this.page.display());
-      this.show(of, sheet);
+      const text = this.page.text();
+      const sheet = await helper.call("assess", this.id, text, this.options(), this.page.display());
+      this.show(of, text, state, sheet);
       this.page.say(`${this.label} is done. ${sheet.verdict[0] ?? sheet.line}`);
     } catch (error) {
       if (error instanceof Ended) this.page.say(`${this.label} was cancelled.`);
@@ -172,13 +180,19 @@ export class SuiteTab implements Tab {
     }
   }
 
-  private show(of: string, sheet: Sheet): void {
+  private show(of: string, text: string, state: State, sheet: Sheet): void {
+    // As they were when it was run.
+    const { records } = this.page.desk;
+    const files = sheet.records.map(({ path, text }) => [path, text ?? records.get(path) ?? records.get(path.replace(/^.*[/\\]/, "")) ?? ""]);
+    const needed = { "model.toml": text, ...Object.fromEntries(files) };
     this.result.show(
       of,
       sheetElement(sheet),
+      ...this.explorer(state, sheet),
       h(
         "div",
         { class: "actions" },
+        h("button", { type: "button", onclick: () => hand(`${this.id}.zip`, sheet.commands, needed, { "summary.json": sheet.json, "report.html": sheet.html }) }, "Everything (ZIP)"),
         h("button", { type: "button", onclick: () => download(`${this.id}-report.html`, sheet.html, "text/html") }, "report.html"),
         h("button", { type: "button", onclick: () => download(`${this.id}-summary.json`, sheet.json, "application/json") }, "summary.json"),
       ),
@@ -186,12 +200,46 @@ export class SuiteTab implements Tab {
     this.update();
   }
 
+  /** The runs, each of which can be shown by itself; of a design its keys are taken over. */
+  private explorer(state: State, sheet: Sheet): HTMLElement[] {
+    const enough = sheet.runs.filter(({ columns }) => columns.filter(({ values }) => values.some((value) => typeof value === "number")).length > 1);
+    const tables = this.id === "spectrum" ? [...enough].reverse() : enough;
+    if (tables.length === 0) return [];
+    const demand = this.options().find(([name]) => name === "demand")?.[1] ?? "peak_sliding_displacement_m";
+    const axes: Record<string, [RegExp, RegExp]> = { ida: [new RegExp(`^${demand}$`), /^level$/], fragility: [new RegExp(`^${demand}$`), /^level$/], design: [/displacement_m$/, /acceleration_m_per_s2$/] };
+    const coupled = this.options().some(([name]) => name === "friction");
+    const take = (table: RunTable, row: number) => this.take(state, coupled, sheet, table, row);
+    const word = this.id === "design" ? "a click uses this design" : "a click shows the run by itself";
+    return [h("div", { class: "card pad" }, new Explorer(tables, this.id, word, take, axes[this.id] ?? [/^(?!)/, /^peak_sliding_displacement_m/]).element)];
+  }
+
+  private take(state: State, coupled: boolean, sheet: Sheet, { columns }: RunTable, row: number): void {
+    const cell = (name: string) => columns.find((column) => column.name === name)?.values[row];
+    const name = cell("record");
+    const stem = (path: string) => path.replace(/^.*\//, "").replace(/\.[^.]*$/, "");
+    const file = sheet.records.find(({ path }) => path === name || stem(path) === name)?.file;
+    const known = this.page.records().find((record) => record.name === file);
+    const set = columns.flatMap(({ name, si, path, values }): Setting[] => {
+      const number = values[row];
+      if (!path || typeof number !== "number") return [];
+      if (name === "isolator.period") {
+        const rate = number / (2 * Math.PI);
+        return [["slider.radius", `${(value(state, "analysis.gravity")?.value ?? 9.80665) * rate * rate} m`]];
+      }
+      const own: Setting = [name, si ? `${number} ${si}` : String(number)];
+      const [kinetic, still] = ["slider.kinetic_friction", "slider.static_friction"].map((path) => value(state, path)?.value);
+      return coupled && name === "slider.kinetic_friction" && kinetic && still ? [["slider.static_friction", String(number * (still / kinetic))], own] : [own];
+    });
+    const scale = cell("scale");
+    this.page.load({ record: known ? known.name : null, scale: typeof scale === "number" ? scale : 1, friction: String(cell("friction") ?? "nominal"), set });
+  }
+
   private async exportPlan(): Promise<void> {
     try {
       const plan = await this.page.desk.helper.call("plan", this.id, this.page.text(), this.options());
       download("plan.toml", plan, "application/toml");
     } catch (error) {
-      if (error instanceof ModuleError) this.refuse(error);
+      if (error instanceof ModuleError) this.page.fault(error.fault);
     }
   }
 

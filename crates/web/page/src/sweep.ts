@@ -1,6 +1,7 @@
 /** How the model's own run follows one of its values: slices of it on several workers. */
 
 import uPlot from "uplot";
+import { labelOf } from "./controls";
 import { ModuleError, Pool } from "./desk";
 import { fill, h } from "./dom";
 import { type Page, Progress, Result, subject, type Tab, value } from "./tab";
@@ -14,7 +15,7 @@ export class SweepTab implements Tab {
   private readonly from = h("input", { type: "text", inputmode: "decimal" });
   private readonly to = h("input", { type: "text", inputmode: "decimal" });
   private readonly count = h("input", { type: "text", inputmode: "numeric", value: "200" });
-  private readonly progress = new Progress();
+  private readonly progress = new Progress((text) => this.page.progress(this.id, text));
   private readonly go = h("button", { type: "submit", class: "main" }, "Run");
   private readonly charts = h("div", { class: "plots" });
   private readonly result = new Result();
@@ -54,7 +55,7 @@ export class SweepTab implements Tab {
     if (!state) return;
     const numbers = state.inputs.filter((input) => typeof input.value === "number" && input.value !== 0 && !/^(block\.width|block\.height|storey\.\d+\.height|slider\.bounds|analysis|motion\.(dt|units))/.test(input.path));
     const before = this.path.value || "slider.kinetic_friction";
-    fill(this.path, ...numbers.map((input) => h("option", { value: input.path, selected: input.path === before }, input.path)));
+    fill(this.path, ...numbers.map((input) => h("option", { value: input.path, selected: input.path === before }, labelOf(input.path))));
     if (!this.from.value) this.ends();
     this.update();
     if (this.of !== this.key()) void this.run();
@@ -143,7 +144,7 @@ export class SweepTab implements Tab {
     const x = column(0, inSi) as number[];
     const { length, acceleration } = state.units;
     const colour = this.page.colours();
-    const one = (title: string, unit: string, lines: [string, string, (number | null)[]][]) => {
+    const one = (heading: string, title: string, unit: string, lines: [string, string, (number | null)[]][]) => {
       const box = h("div", { class: "chart" });
       const key = h(
         "ul",
@@ -154,7 +155,7 @@ export class SweepTab implements Tab {
           return item;
         }),
       );
-      const card = h("div", { class: "card plot" }, h("header", {}, h("h2", {}, title), key), box);
+      const card = h("div", { class: "card plot" }, h("header", {}, h("h2", {}, `${heading} over ${labelOf(path).toLowerCase()}`), key), box);
       this.charts.append(card);
       const axis = { stroke: colour.quiet!, grid: { stroke: colour.line!, width: 1 }, ticks: { stroke: colour.line!, width: 1, size: 4 }, font: "12px system-ui, sans-serif", labelFont: "12px system-ui, sans-serif" };
       const plot = new uPlot(
@@ -166,8 +167,8 @@ export class SweepTab implements Tab {
           cursor: { sync: { key: "sweep" }, y: false, drag: { x: false, y: false } },
           scales: { x: { time: false }, y: { range: (_, low, high) => [Math.min(0, low ?? 0), (high ?? 1) * 1.06] } },
           axes: [
-            { ...axis, label: `${path}${symbol ? ` (${symbol})` : ""}`, labelSize: 18, size: 30 },
-            { ...axis, label: unit, labelSize: 16, size: 58 },
+            { ...axis, label: `${labelOf(path)}${symbol ? ` (${symbol})` : ""}`, labelSize: 18, size: 30 },
+            { ...axis, label: `${title} (${unit})`, labelSize: 18, size: 50 },
           ],
           series: [{}, ...lines.map(([label, stroke]) => ({ label, stroke, width: 1.7, pxAlign: 0, points: { show: false } }))],
           hooks: {
@@ -209,11 +210,11 @@ export class SweepTab implements Tab {
       }).observe(box);
     };
     this.charts.replaceChildren();
-    one(`Sliding displacement over ${path}`, length.symbol, [
+    one("Sliding displacement", "Sliding", length.symbol, [
       ["peak", colour.stick!, column(1, length.in_si)],
       ["residual, in size", colour.slide!, column(2, length.in_si, true)],
     ]);
-    one(`Peak accelerations over ${path}`, acceleration.symbol, [
+    one("Peak accelerations", "Acceleration", acceleration.symbol, [
       ["block", colour.block!, column(3, acceleration.in_si)],
       ...(state.structure.storeyMasses_kg.length > 0 ? [["roof", colour.roof!, column(4, acceleration.in_si)] as [string, string, (number | null)[]]] : []),
     ]);

@@ -1,11 +1,11 @@
 /** What the tabs over many runs have in common: what they need of the page, progress, a sheet of results. */
 
 import type { Desk } from "./desk";
-import { download, drawing, fill, h } from "./dom";
+import { download, drawing, fill, h, png } from "./dom";
 import type { RecordChoice } from "./motion";
 import { warningList } from "./results";
 import type { Palette } from "./scene";
-import type { Display, Fault, InputValue, Setting, Sheet, State } from "./types";
+import type { Display, Fault, InputValue, Run, Setting, Sheet, State } from "./types";
 
 /** What the tabs need of the page. */
 export interface Page {
@@ -20,6 +20,12 @@ export interface Page {
   /** The model's text. */
   text: () => string;
   set: (settings: Setting[]) => void;
+  /** Shows a run by itself; its record by the name on the page. */
+  load: (run: Run) => void;
+  /** A number that is another for other bytes of a record. */
+  identity: (name: string) => number;
+  /** Says on the bar how far a tab is; nothing where it is at rest. */
+  progress: (tab: string, text: string) => void;
   /** A setting of a tab changed. */
   changed: () => void;
   say: (text: string) => void;
@@ -41,13 +47,16 @@ export interface Tab {
 const identities = new WeakMap<Uint8Array, number>();
 let known = 0;
 
+/** A number that is another for other bytes. */
+export function identity(bytes: Uint8Array): number {
+  const number = identities.get(bytes) ?? ++known;
+  identities.set(bytes, number);
+  return number;
+}
+
 /** What a result is of, as text: the model, the bytes of the records, what was asked. */
 export function subject({ desk, text }: Pick<Page, "desk" | "text">, asked: unknown): string {
-  const records = [...desk.records].map(([name, bytes]) => {
-    const number = identities.get(bytes) ?? ++known;
-    identities.set(bytes, number);
-    return [name, number];
-  });
+  const records = [...desk.records].map(([name, bytes]) => [name, identity(bytes)]);
   return JSON.stringify([text(), records, asked]);
 }
 
@@ -81,20 +90,28 @@ export class Progress {
   readonly element = h("div", { class: "progress", hidden: true }, this.bar, h("div", { class: "actions" }, this.words, this.stop));
   private started = 0;
 
+  /** `told` is told how far it is; nothing at its end. */
+  constructor(private readonly told: (text: string) => void) {}
+
   begin(): void {
+    this.told("…");
     this.started = performance.now();
     this.element.hidden = false;
     this.bar.removeAttribute("value");
-    this.words.textContent = "Starting";
+    this.words.textContent = "Loading";
   }
 
   show(done: number, of: number): void {
-    if (of > 0) this.bar.value = Math.min(1, done / of);
+    if (of > 0) {
+      this.bar.value = Math.min(1, done / of);
+      this.told(`${Math.floor((100 * Math.min(done, of)) / of)} %`);
+    }
     const left = ((performance.now() - this.started) / Math.max(1, done)) * Math.max(0, of - done);
     this.words.textContent = of > 0 ? `${done} of ${of} runs, ${(left / 1000).toFixed(0)} s left` : `${done} runs`;
   }
 
   end(): void {
+    this.told("");
     this.element.hidden = true;
   }
 }
@@ -122,7 +139,15 @@ export function sheetElement(sheet: Sheet): HTMLElement {
       "figure",
       {},
       drawing(drawn.svg, drawn.caption),
-      h("figcaption", {}, drawn.caption, " ", h("button", { type: "button", onclick: () => download(`${drawn.id}.svg`, drawn.svg, "image/svg+xml") }, "SVG")),
+      h(
+        "figcaption",
+        {},
+        drawn.caption,
+        " ",
+        h("button", { type: "button", onclick: () => download(`${drawn.id}.svg`, drawn.svg, "image/svg+xml") }, "SVG"),
+        " ",
+        h("button", { type: "button", onclick: () => void png(drawn) }, "PNG"),
+      ),
     );
   const [first, ...others] = sheet.figures;
   return h(

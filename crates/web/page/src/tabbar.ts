@@ -41,6 +41,16 @@ export class TabBar {
     return this.tabs.find((tab) => tab.id === this.tab) ?? this.tabs[0]!;
   }
 
+  /** Says beside a tab's name how far it is; nothing where it is at rest. */
+  progress(id: string, text: string): void {
+    const button = this.buttons.get(id);
+    if (!button) return;
+    const said = button.querySelector(".running");
+    if (text === "") said?.remove();
+    else if (said) said.textContent = text;
+    else button.append(h("span", { class: "running" }, text));
+  }
+
   /** Tells all that model or records may have changed. */
   update(): void {
     for (const tab of this.tabs) tab.update?.();

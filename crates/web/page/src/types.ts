@@ -146,8 +146,58 @@ export interface Sheet {
   notes: string[];
   method: string[];
   figures: Drawing[];
+  /** What makes it again beside the model: lines of commands, and the records; with a text where that is not the file itself. */
+  commands: string[];
+  records: { path: string; text: string | null; file: string }[];
+  /** The command's tables of its runs. */
+  runs: RunTable[];
   html: string;
   json: string;
+}
+
+/** A column of a table of runs; values in SI, whose unit is `si`. */
+export interface RunColumn {
+  name: string;
+  title: string;
+  unit: Unit;
+  si: string;
+  /** Whether it is a path of the model. */
+  path: boolean;
+  values: (number | string | boolean | null)[];
+}
+
+export interface RunTable {
+  name: string;
+  columns: RunColumn[];
+}
+
+/** What makes a run by itself: its record by name, none where the motion is made; the factor on it; which bound of friction; keys of the model. */
+export interface Run {
+  record: string | null;
+  scale: number;
+  friction: string;
+  set: Setting[];
+}
+
+/** A demand to choose. */
+export interface Choice {
+  name: string;
+  title: string;
+  unit: Unit;
+}
+
+interface Figure {
+  value: number;
+  unit: Unit;
+}
+
+/** What is known of a record. */
+export interface Surveyed {
+  pga: Figure;
+  pgv: Figure;
+  measure: Figure | null;
+  duration_s: number;
+  notices: string[];
 }
 
 /** A field of a form. */
@@ -207,7 +257,9 @@ export interface Calls {
   file: (name: string, text: string, command: string) => string;
   sweep: (text: string, over: string, from: number, to: number) => Float64Array;
   plan: (what: string, text: string, options: Setting[]) => string;
-  form: (what: string, text: string) => { about: string; fields: FormField[] };
+  form: (what: string, text: string, display: Display) => { about: string; fields: FormField[]; demands: Choice[] };
+  survey: (asked: string[], measure: string, display: Display) => Surveyed;
+  studyRun: (plan: string, text: string, names: string[], run: number) => Run;
   assess: (what: string, text: string, options: Setting[], display: Display) => Sheet;
   /** Number of runs, and of the numbers of a row. */
   studySize: (plan: string, text: string, names: string[]) => [number, number];

@@ -1,6 +1,7 @@
 /** The worker: holds a session of the module and answers one request after the other. */
 
 import { initSync, type Page, Session, sha256, version } from "../pkg/slipstick_web.js";
+import { answered, withTable } from "./answers";
 import type { Answer, Calls, Fault, Judgement, Op, Reply, Request, Rest, Sheet } from "./types";
 
 const scope = globalThis as unknown as DedicatedWorkerGlobalScope & {
@@ -24,7 +25,7 @@ let lastGround = 0;
 const flat = (pairs: [string, string][]) => pairs.flat();
 
 function sheet(page: Page): Sheet {
-  const made = { ...JSON.parse(page.state()), html: page.html(), json: page.json() };
+  const made = { ...JSON.parse(page.state()), runs: JSON.parse(page.tables()), html: page.html(), json: page.json() };
   page.free();
   return made;
 }
@@ -49,35 +50,12 @@ const calls: Calls = {
   inspect: (name, units, dt) => JSON.parse(session.inspect(name, units, dt)),
   analyse(text, set, display, rest): Answer {
     clearTimeout(resting);
-    const answer = session.analyse(text, flat(set), display);
-    const column = (number: number) => answer.column(number) as Float64Array;
-    const ground = answer.ground();
-    const result: Answer = {
-      state: JSON.parse(answer.state()),
-      time: column(0),
-      table: column(1),
-      s: column(2),
-      velocity: column(3),
-      block: column(4),
-      friction: column(5),
-      force: column(6),
-      storeyDisplacement: column(7),
-      storeyAcceleration: column(8),
-      contents: column(9),
-      sy: column(10),
-      frictionY: column(11),
-      mode: answer.mode() as Int8Array,
-      eventTimes: answer.eventTimes() as Float64Array,
-      eventKinds: answer.eventKinds() as Uint8Array,
-      ground,
-    };
-    answer.free();
-    if (ground !== lastGround) {
-      lastGround = ground;
-      result.tableTimes = session.tableTimes() as Float64Array;
-      result.tableDisplacement = session.tableDisplacement() as Float64Array;
+    let result = answered(session, text, set, display);
+    if (result.ground !== lastGround) {
+      lastGround = result.ground;
+      result = withTable(session, result);
     }
-    if (rest) resting = setTimeout(() => judgeAtRest(rest), rest.after_ms);
+    if (rest && "judge" in session) resting = setTimeout(() => judgeAtRest(rest), rest.after_ms);
     return result;
   },
   judge(stepwise): Judgement {
@@ -99,7 +77,9 @@ const calls: Calls = {
   file: (name, text, command) => session.file(name, text, command),
   sweep: (text, over, from, to) => session.sweep(text, over, from, to) as Float64Array,
   plan: (what, text, options) => session.plan(what, text, flat(options)),
-  form: (what, text) => JSON.parse(session.form(what, text)),
+  form: (what, text, display) => JSON.parse(session.form(what, text, display)),
+  survey: (asked, measure, display) => JSON.parse(session.survey(asked, measure, display)),
+  studyRun: (plan, text, names, run) => JSON.parse(session.studyRun(plan, text, names, run)),
   assess: (what, text, options, display) => sheet(session.assess(what, text, flat(options), display)),
   studySize: (plan, text, names) => [...session.studySize(plan, text, names)] as [number, number],
   studyRows: (plan, text, names, from, to) => session.studyRows(plan, text, names, from, to) as Float64Array,

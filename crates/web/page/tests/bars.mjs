@@ -25,6 +25,30 @@ for (let i = 0; i < 7; i++) {
   await context.close();
 }
 
+/** The page as it comes over a slow line to a slow processor: seconds to a mark, and what came before it. */
+async function slow(mark, url = site.url) {
+  const context = await chromium.newContext({ viewport: { width: 390, height: 844 }, serviceWorkers: "block" });
+  const page = await context.newPage();
+  const control = await context.newCDPSession(page);
+  await control.send("Network.enable");
+  await control.send("Network.emulateNetworkConditions", { offline: false, latency: 150, downloadThroughput: 1.6e6 / 8, uploadThroughput: 0.75e6 / 8 });
+  await control.send("Emulation.setCPUThrottlingRate", { rate: 4 });
+  await page.goto(url, { waitUntil: "commit" });
+  await page.waitForFunction((mark) => performance.getEntriesByName(mark).length > 0, mark, { timeout: 60000 });
+  const found = await page.evaluate((mark) => {
+    const until = performance.getEntriesByName(mark)[0].startTime;
+    const came = [...performance.getEntriesByType("navigation"), ...performance.getEntriesByType("resource")].filter((entry) => entry.responseEnd <= until);
+    return { seconds: until / 1000, bytes: came.reduce((sum, { transferSize }) => sum + transferSize, 0) };
+  }, mark);
+  await context.close();
+  return found;
+}
+
+const slowly = [];
+for (let i = 0; i < 3; i++) slowly.push(await slow("first-picture"));
+const live = [];
+for (let i = 0; i < 3; i++) live.push((await slow("first-answer")).seconds);
+
 const { page, context } = await fresh();
 const dragged = await page.evaluate(async () => {
   const app = globalThis.slipstick;
@@ -92,6 +116,9 @@ console.log(
   JSON.stringify({
     chromium: version,
     first_s: median(first) / 1000,
+    slow_first_s: median(slowly.map(({ seconds }) => seconds)),
+    slow_first_kB: median(slowly.map(({ bytes }) => bytes)) / 1000,
+    slow_live_s: median(live),
     updates_per_s: dragged.updates,
     frames_within: dragged.within,
     certified_ms: median(certified),

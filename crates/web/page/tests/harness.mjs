@@ -4,6 +4,7 @@ import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { createServer } from "node:http";
 import { tmpdir } from "node:os";
 import { extname, join } from "node:path";
+import { gzipSync } from "node:zlib";
 import { chromium } from "playwright-core";
 
 const TYPES = {
@@ -12,8 +13,16 @@ const TYPES = {
   ".css": "text/css; charset=utf-8",
   ".wasm": "application/wasm",
   ".svg": "image/svg+xml",
+  ".json": "application/json",
   ".webmanifest": "application/manifest+json",
 };
+
+const packed = new Map();
+/** A file in gzip, packed once. */
+function compressed(file) {
+  if (!packed.has(file)) packed.set(file, gzipSync(readFileSync(file), { level: 9 }));
+  return packed.get(file);
+}
 
 /** Serves a folder on this machine. */
 export async function host(folder) {
@@ -26,8 +35,11 @@ export async function host(folder) {
       response.writeHead(404).end();
       return;
     }
-    response.writeHead(200, { "content-type": TYPES[extname(file)] ?? "text/plain", "x-content-type-options": "nosniff" });
-    response.end(readFileSync(file));
+    // As static hosts do.
+    const zipped = /gzip/.test(request.headers["accept-encoding"] ?? "");
+    const type = { "content-type": TYPES[extname(file)] ?? "text/plain", "x-content-type-options": "nosniff" };
+    response.writeHead(200, zipped ? { ...type, "content-encoding": "gzip" } : type);
+    response.end(zipped ? compressed(file) : readFileSync(file));
   });
   await new Promise((done) => server.listen(0, "127.0.0.1", done));
   return { url: `http://localhost:${server.address().port}/`, asked, close: () => server.close() };

@@ -39,6 +39,21 @@ export function minute(test, on) {
       for (const name of ["Shaking table", "Block", "Dish", "Gap"]) assert.ok(listed.includes(name), `${name} is listed`);
     }));
 
+  test("no figure of the headline runs into the next, at three widths", () =>
+    on(async (page) => {
+      await page.getByRole("button", { name: "Pin as B" }).click();
+      await page.waitForFunction(() => globalThis.slipstick.compare.pinned);
+      for (const scene of [undefined, "resonance"]) {
+        if (scene) await page.evaluate((scene) => globalThis.slipstick.guides.open(scene), scene);
+        await settled(page);
+        for (const width of [1440, 1024, 390]) {
+          await page.setViewportSize({ width, height: 900 });
+          const cut = await page.locator(".headline dt, .headline dd").evaluateAll((all) => all.filter((one) => one.scrollWidth > one.clientWidth + 1).map((one) => one.textContent));
+          assert.deepEqual(cut, [], `${width} px`);
+        }
+      }
+    }));
+
   test("what a tap tells stays", () =>
     on(
       async (page) => {

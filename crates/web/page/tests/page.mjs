@@ -12,6 +12,9 @@ import { field, setField, slider } from "./fields.mjs";
 import { minute } from "./minute.mjs";
 import { scenes } from "./scenes.mjs";
 import { browser, drop, headline, host, message, open, settled, temporary } from "./harness.mjs";
+import { loading } from "./loading.mjs";
+import { runs } from "./runs.mjs";
+import { whole } from "./whole.mjs";
 
 const folder = resolve(process.argv[2]);
 const only = process.argv[3];
@@ -145,7 +148,12 @@ test("every format that is read can be dropped", () =>
     for (const name of readdirSync(records).filter((name) => name !== "README.md")) {
       await drop(page, [name, readFileSync(join(records, name))]);
       const dialog = page.locator("dialog");
-      const ended = () => page.evaluate(() => Promise.race([globalThis.dropped.then(() => true), new Promise((done) => setTimeout(done, 400))]));
+      const ended = async () => {
+        const over = () => page.evaluate(() => Promise.race([globalThis.dropped.then(() => true), new Promise((done) => setTimeout(done, 400))]));
+        // It asks, or it is done.
+        while (!(await over())) if (await dialog.isVisible()) return false;
+        return true;
+      };
       for (let round = 0; round < 4 && !(await ended()); round++) {
         const units = dialog.locator("input[name=units]");
         if (await units.isVisible()) await units.fill(/counts/.test(await dialog.innerText()) ? "1e-5 m/s2" : "g");
@@ -350,14 +358,14 @@ test("a link restores the tab with its settings, records and all", () =>
     const limit = page.locator("#panel-ida [name=limit]");
     await limit.fill("33 mm");
     await limit.blur();
-    await page.locator("#panel-ida input[type=checkbox]").last().click();
+    await page.locator("#panel-ida .workbench tbody input").last().click();
     await page.waitForTimeout(300);
     const other = await context.newPage();
     await other.goto(page.url());
     await settled(other);
     assert.equal(await other.locator("#tab-ida").getAttribute("aria-selected"), "true");
     await other.waitForFunction(() => document.querySelector("#panel-ida [name=limit]")?.value === "33 mm");
-    const ticked = await other.locator("#panel-ida .records input").evaluateAll((all) => all.map((box) => box.checked));
+    const ticked = await other.locator("#panel-ida .workbench tbody input").evaluateAll((all) => all.map((box) => box.checked));
     assert.deepEqual(ticked, [true, true, false]);
     await other.close();
   }));
@@ -720,9 +728,9 @@ for (const [scheme, forcedColors] of [["light", "none"], ["dark", "none"], ["lig
     ));
 }
 
-minute(test, on);
-compare(test, on);
-scenes(test, on, site);
+loading(test, on, site);
+whole(test, on, root);
+runs(test, on);
 
 test("it opens without a network once it was open, and asks for nothing after it", async () => {
   const opened = await open(chromium, site.url, { serviceWorkers: "allow" });
@@ -793,6 +801,10 @@ test("reduced motion: it stands at its peak", () =>
     },
     { reducedMotion: "reduce" },
   ));
+
+minute(test, on);
+compare(test, on);
+scenes(test, on, site);
 
 test("it prints as pages of A4 with the report's figures", () =>
   on(async (page) => {

@@ -52,6 +52,7 @@ export function scenes(test, on, site) {
           await card.locator(".answer h3").waitFor({ timeout: 60000 });
           const answer = await card.locator(".answer").innerText();
           assert.ok(!/NaN|undefined|Infinity/.test(answer), answer);
+          assert.ok(!/e[-−]\d/.test(await page.locator(".headline").innerText()), `${id}: no figure of rounding`);
           console.log(`    ${id}: ${answer.replace(/\s+/g, " ")}`);
           const found = await page.evaluate(() => Object.fromEntries(Object.entries(globalThis.slipstick.guides.found).map(([name, { headline }]) => [name, headline])));
           const claims = [CLAIMS[id](found)].flat();

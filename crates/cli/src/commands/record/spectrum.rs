@@ -18,9 +18,6 @@ use crate::args::quantity;
 use crate::failure::{Failure, print, say};
 use crate::record_args::SpectrumArgs;
 
-/// Largest step between Fourier frequencies, in Hz.
-const FOURIER_STEP_HZ: f64 = 0.05;
-
 /// Most periods of one spectrum.
 const MOST_PERIODS: usize = 100_000;
 
@@ -53,7 +50,7 @@ pub fn spectrum(args: &SpectrumArgs) -> Result<ExitCode, Failure> {
                 continue;
             }
             if args.fourier {
-                let spectrum = FourierSpectrum::of(&motion, FOURIER_STEP_HZ);
+                let spectrum = FourierSpectrum::of(&motion, FourierSpectrum::USUAL_STEP_HZ);
                 fourier.push(ChannelFourier { file, channel: name, spectrum });
                 continue;
             }

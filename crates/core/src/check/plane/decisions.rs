@@ -200,6 +200,55 @@ impl<'a> PlaneJudge<'a> {
         dot(u, self.frame().body.moved([push[0] - slowing * u[0], push[1] - slowing * u[1]]))
     }
 
+    /// The state at a part of a step of a slip.
+    fn inside(&self, step: &Step, part: f64) -> State {
+        let mut state = State::default();
+        if step.tail > FINE {
+            self.axes.stepper.at(step, part, &mut state);
+        } else {
+            step.at(self.axes.stepper.rule, part, &mut state);
+        }
+        state
+    }
+
+    /// Where the speed is least next to a point, and that speed: the zero of `w·ẇ = w·p − f |w|`. A least square
+    /// is found to half the digits, which in a pass through rest are all that the speed has.
+    fn turn_of_speed(&self, step: &Step, point: usize) -> Option<(f64, f64)> {
+        let gain = |part: f64| {
+            let state = self.inside(step, part);
+            let loads = between(&step.stretch.loads, part);
+            let (w, r) = (state.speed(), norm(state.speed()));
+            let push = self.forces(&state, &loads).0.push;
+            (dot(w, push) - self.frame().slowing(&loads, r) * r, r)
+        };
+        let points = &self.axes.stepper.rule.points;
+        let mut low = points[point.saturating_sub(1)];
+        let mut high = points[(point + 1).min(POINTS - 1)];
+        let ((mut falls, _), (mut rises, _)) = (gain(low), gain(high));
+        if !(falls < 0.0 && rises > 0.0) {
+            return None;
+        }
+        let mut least = (points[point], norm(step.speed(point)));
+        // By chords, and by halves where these do not halve it.
+        for pass in 0..200 {
+            let chord = low + (high - low) * (falls / (falls - rises));
+            let part = if pass % 3 == 2 { 0.5 * (low + high) } else { chord };
+            if !(part > low && part < high) {
+                break;
+            }
+            let (here, speed) = gain(part);
+            if speed <= least.1 {
+                least = (part, speed);
+            }
+            if here < 0.0 {
+                (low, falls) = (part, here);
+            } else {
+                (high, rises) = (part, here);
+            }
+        }
+        Some(least)
+    }
+
     /// Takes the speeds of a step of a slip.
     pub(super) fn slid(&mut self, step: &Step) {
         let rule = self.axes.stepper.rule;
@@ -209,18 +258,16 @@ impl<'a> PlaneJudge<'a> {
             step.at_point(point, &mut state);
             *speed = norm(state.speed());
         }
-        // The square has no corner where the speed passes 0.
         let least_near = |point: usize| {
-            let (t, square) = rule.least_of((point, speeds[point] * speeds[point]), |t| {
-                let mut state = State::default();
-                if step.tail > FINE {
-                    self.axes.stepper.at(step, t, &mut state);
-                } else {
-                    step.at(rule, t, &mut state);
-                }
-                dot(state.speed(), state.speed())
-            });
-            (t, square.sqrt())
+            self.turn_of_speed(step, point).unwrap_or_else(|| {
+                // The square has no corner where the speed passes 0.
+                let square = speeds[point] * speeds[point];
+                let (t, square) = rule.least_of((point, square), |t| {
+                    let w = self.inside(step, t).speed();
+                    dot(w, w)
+                });
+                (t, square.sqrt())
+            })
         };
         let last = POINTS - 1;
         let mut points = Vec::with_capacity(POINTS + 1);

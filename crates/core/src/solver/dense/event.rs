@@ -8,7 +8,7 @@ use fearless_simd::prelude::*;
 
 use super::ahead::Ahead;
 use super::lanes::{four, greatest, least};
-use super::series::Series;
+use super::series::{Series, Span};
 use crate::response::Mode;
 use crate::slider::Direction;
 use crate::solver::course::{AMBIGUOUS, Instant};
@@ -23,16 +23,6 @@ const SHORT: f64 = 2e-5;
 
 /// Events in a sample after which it goes by event stepping.
 const MOST_EVENTS: u32 = 8;
-
-/// From an instant in a piece of a sample to its end.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Span {
-    /// Its length in pieces.
-    pub(super) rest: f64,
-    /// Acceleration at its start and its change over a whole piece.
-    pub(super) a: f64,
-    pub(super) change: f64,
-}
 
 /// The motion of one phase over a span.
 #[derive(Clone, Copy, Debug)]

@@ -4,9 +4,9 @@ use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, f64x8};
 
 use super::ahead::Ahead;
-use super::event::{Segment, Span};
+use super::event::Segment;
 use super::lanes::{Eight, Four, combine4, combine8, eight, four, greatest, larger};
-use super::series::Series;
+use super::series::{Series, Span};
 use crate::linear::polynomial::{ZERO, largest};
 use crate::response::Mode;
 use crate::solver::outputs::output;

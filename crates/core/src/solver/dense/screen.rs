@@ -7,12 +7,12 @@ use super::ahead::Ahead;
 use super::lanes::{BATCH, Four, eight, four, greatest, larger4, least, times4};
 use super::outputs::{BEHIND, behind};
 use super::peaks::Samples;
-use super::windows::Extent;
 use crate::linear::{QUIET, Window};
 use crate::response::Mode;
 use crate::slider::Direction;
-use crate::solver::modal::clear_steps;
+use crate::solver::chords::clear_steps;
 use crate::solver::outputs::output;
+use crate::solver::windows::Extent;
 
 /// A chord over a sample is off by this part of what one over a batch is.
 const PER_SAMPLE: f64 = 1.0 / (BATCH * BATCH) as f64;

@@ -5,13 +5,27 @@ use fearless_simd::prelude::*;
 use fearless_simd::{f64x2, f64x4, f64x8};
 
 use super::equations::{OneStorey, unit};
-use super::event::Span;
 use super::lanes::{Eight, eight, four, times8};
-use super::tables::ORDERS;
+
+/// Orders of the series: with [`PIECE_RATE`] the first term left out is below 3e-17 of the largest.
+pub(super) const ORDERS: usize = 12;
+
+/// Largest rate times the length of a series.
+pub(super) const PIECE_RATE: f64 = 0.3;
 
 /// Orders side by side, and how often.
 const ABREAST: usize = 4;
 const GROUPS: usize = ORDERS / ABREAST;
+
+/// From an instant in a piece of a sample to its end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Span {
+    /// Its length in pieces.
+    pub(super) rest: f64,
+    /// Acceleration at its start and its change over a whole piece.
+    pub(super) a: f64,
+    pub(super) change: f64,
+}
 
 /// A number for `ṡ` and one for `η̇`, order by order.
 type ByOrder = [Eight; GROUPS];

@@ -12,15 +12,9 @@ use fearless_simd::prelude::*;
 use super::equations::{OneStorey, unit};
 use super::lanes::{BATCH, Eight, Four};
 use super::outputs::{Gates, Outputs, Shape};
-use super::series::Table;
+use super::series::{PIECE_RATE, Table};
 use crate::linear::{QUIET, System};
 use crate::solver::outputs::OutputRow;
-
-/// Orders of the series: with [`PIECE_RATE`] the first term left out is below 3e-17 of the largest.
-pub(super) const ORDERS: usize = 12;
-
-/// Largest rate times the length of a series.
-const PIECE_RATE: f64 = 0.3;
 
 /// Largest rate times step: beyond, the bounds of the general way save more than its tables cost.
 const STEP_RATE: f64 = 0.65;

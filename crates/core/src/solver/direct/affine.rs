@@ -17,10 +17,9 @@ use fearless_simd::prelude::*;
 
 use super::super::course::Course;
 use super::super::ground::Normal;
+use super::super::instructions::Job;
 use super::super::phase::Phase;
-use super::super::prepared::Job;
 use super::Direct;
-use super::ahead::Nine;
 use super::body::Loads;
 use crate::linear::lanes::eight;
 use crate::linear::{BATCH, MAX_RATE_STEP, Row, Units, Window};
@@ -37,6 +36,9 @@ const MOST_CONFIGURATIONS: usize = 128;
 
 /// What a unit is taken as, so that constant forces beside it are below rounding: 2^100.
 const LARGE: f64 = f64::from_bits((1023 + 100) << 52);
+
+/// A number at a sample and at the eight after it.
+pub(super) type Nine = [f64; BATCH + 1];
 
 /// One assignment of modes, on one branch of the slider's law.
 pub(super) struct Configuration {
@@ -343,7 +345,7 @@ impl<'a> Direct<'a> {
 #[cfg(test)]
 mod tests {
     use super::super::super::ground::{Ground, Sampling};
-    use super::super::super::prepared::InstructionSet;
+    use super::super::super::instructions::InstructionSet;
     use super::super::start;
     use super::*;
     use crate::model::{Block, Contents, Damping, Frame, InitialState, Model, Slider};

@@ -8,14 +8,14 @@
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
+use super::super::chords::bound_between;
 use super::super::course::Course;
-use super::super::modal::bound_between;
+use super::super::instructions::Job;
 use super::super::outputs::output;
 use super::super::phase::{Phase, Straight};
-use super::super::prepared::Job;
 use super::super::walk::Walk;
 use super::Direct;
-use super::affine::{Affine, Configuration, Number};
+use super::affine::{Affine, Configuration, Nine, Number};
 use crate::linear::lanes::{eight, larger, largest_lane};
 use crate::linear::{BATCH, Force, Window};
 use crate::response::Mode;
@@ -23,9 +23,6 @@ use crate::slider::Contact;
 
 /// Candidates that are kept before they are settled.
 const CANDIDATES: usize = 512;
-
-/// A number at a sample and at the eight after it.
-pub(super) type Nine = [f64; BATCH + 1];
 
 /// What running ahead keeps from one stretch of samples to the next.
 #[derive(Default)]

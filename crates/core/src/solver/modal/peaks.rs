@@ -8,6 +8,7 @@
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
+use super::super::chords::bound_between;
 use super::super::course::Course;
 use super::super::ground::Stretch;
 use super::super::phase::Segment;
@@ -280,19 +281,4 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
         peaks.bounds.extend_from_slice(&peaks.above);
         peaks.ends.extend_from_slice(&peaks.between);
     }
-}
-
-/// Bound on an output between two values, from how far it may depart from their chord.
-#[inline(always)]
-pub(in crate::solver) fn bound_between<S: Simd>(
-    simd: S,
-    [a, b]: [f64x8<S>; 2],
-    slack: f64x8<S>,
-) -> f64x8<S> {
-    // An extreme lies inside only where the ends are less than four times the slack apart:
-    // |y| ≤ max + (slack − |Δ|/4)² / slack.
-    let zero = eight(simd, 0.0);
-    let inside = slack - (b - a).abs() * eight(simd, 0.25);
-    let bulge = inside.simd_gt(zero).select(inside * (inside / slack), zero);
-    larger(a.abs(), b.abs()) + bulge
 }

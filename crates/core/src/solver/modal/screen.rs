@@ -8,6 +8,7 @@
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
+use super::super::chords::clear_steps;
 use super::super::course::Course;
 use super::super::ground::{Normal, largest_size};
 use super::super::outputs::output;
@@ -441,11 +442,4 @@ fn held_steps<S: Simd>(
     let [low, high] = hold.friction_n(n0);
     let holds = n0 > 0.0 && first > low + hidden && first < high - hidden;
     clear_steps(clear.to_bitmask(), holds)
-}
-
-/// Samples up to the last before the first that is not clear: both ends of each must be.
-#[inline(always)]
-pub(in crate::solver) fn clear_steps(clear: u64, first: bool) -> usize {
-    let ends = (clear << 1) | u64::from(first);
-    ((!ends).trailing_zeros() as usize).saturating_sub(1).min(BATCH)
 }

@@ -9,10 +9,11 @@ use core::ops::Range;
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
+use super::super::chords::bound_between;
 use super::super::ground::{Roughness, Stretch, largest_size};
 use super::super::phase::Segment;
 use super::super::tables::{Batch, PhaseTables};
-use super::peaks::{Candidate, Extent, bound_between};
+use super::peaks::{Candidate, Extent};
 use super::series::output_series;
 use super::{Curvature, Modal};
 use crate::linear::lanes::{Width, eight, greatest, larger};

@@ -188,6 +188,14 @@ struct Composed {
     of_friction: f64,
 }
 
+impl Composed {
+    /// Along an axis, away from rest.
+    fn along(&self, axis: usize, series: &Series) -> Polynomial {
+        let (a, friction) = (&self.steady[axis], &series.friction[axis]);
+        core::array::from_fn(|i| a[i] - self.of_friction * friction[i])
+    }
+}
+
 /// `φ = f u` near rest, where it is no series: bounds of its size and of its first two derivatives.
 struct NearRest {
     sizes: [f64; 3],
@@ -407,12 +415,9 @@ impl Peaks {
         near: Option<&NearRest>,
         to: f64,
     ) {
-        let (a, c) = (&composed.steady, composed.of_friction);
         match near {
             None => {
-                let of = [0, 1].map(|k| -> Polynomial {
-                    core::array::from_fn(|i| a[k][i] - c * series.friction[k][i])
-                });
+                let of = [0, 1].map(|axis| composed.along(axis, series));
                 self.look_at(output, &of, to);
             }
             Some(near) => {
@@ -440,6 +445,7 @@ impl Peaks {
         }
     }
 
+    /// The moment of an axis, which the friction across it is no part of.
     fn look_at_moment(
         &mut self,
         axis: usize,
@@ -448,12 +454,20 @@ impl Peaks {
         near: Option<&NearRest>,
         to: f64,
     ) {
-        let kept = self.all[Output::Moment.place(self.points)];
-        self.look_at_composed(Output::Moment, moment, series, near, to);
-        let peak = &mut self.all[Output::Moment.place(self.points)];
-        peak.axes[1 - axis] = kept.axes[1 - axis];
-        // Lengths mean nothing here: kept out of the way.
-        peak.norm = f64::INFINITY;
+        let all = &mut self.all[Output::Moment.place(self.points)];
+        match near {
+            None => {
+                let mut of = [ZERO; 2];
+                of[axis] = moment.along(axis, series);
+                all.look_at_axes(&of, to);
+            }
+            Some(near) => {
+                let mut peak = *all;
+                near.look_at_axes(&mut peak, moment, series, to);
+                all.axes[axis] = peak.axes[axis];
+                all.norm = all.norm.max(peak.axes[axis]);
+            }
+        }
     }
 
     /// Notes the outputs that friction is part of on the arc at a stop, from `P` and `L g` at both of its ends.
@@ -474,6 +488,20 @@ impl Peaks {
             (Output::FrictionForce, [[0.0; 2]; 2], kg * arc.friction),
             (Output::SliderForce, slider, kg * arc.friction),
         ];
+        for (axis, moment) in system.overturning.iter().enumerate() {
+            let Some((arm, along)) = moment.as_ref().filter(|_| system.mass.is_none()) else {
+                continue;
+            };
+            let modes = dot(arm, g);
+            let [from, to] = pulls;
+            let within = arc.extremes(to).map(|u| (u, arc.part_left(u)));
+            for (u, left) in within.chain([(arc.to, 0.0)]) {
+                let pull = to[axis] + (from[axis] - to[axis]) * left;
+                let size = (along[axis] * (pull - arc.friction * u[axis]) - modes).abs();
+                let peak = &mut self.all[Output::Moment.place(self.points)];
+                peak.axes[axis] = peak.axes[axis].max(size);
+            }
+        }
         let of = of.into_iter().chain(system.mass.is_none().then_some(block));
         for (output, [from, to], c) in of {
             let peak = &mut self.all[output.place(self.points)];
@@ -580,20 +608,35 @@ impl NearRest {
         [0, 1].map(|k| value(&composed.steady[k], x) - per_speed * w[k])
     }
 
-    /// Looks for peaks of `V = A − c φ`; with `|φ| = f` that of `|V|² = |A|² − 2 c A·φ + c² f²` is flat where
-    /// `A` is small.
-    fn look(&self, peak: &mut Peak, composed: &Composed, series: &Series, to: f64) {
+    /// Looks for peaks of the components of `A − c φ`, and notes the ends: these.
+    fn look_at_axes(
+        &self,
+        peak: &mut Peak,
+        composed: &Composed,
+        series: &Series,
+        to: f64,
+    ) -> [[f64; 2]; 2] {
         let of = |x: f64| Self::composed(composed, series, x);
         let ends = [of(0.0), of(to)];
         peak.note_ends(ends, to);
         let (a, c) = (&composed.steady, composed.of_friction);
-        let [size, first, second] = self.sizes;
+        let [_, _, second] = self.sizes;
         for axis in 0..2 {
             let bend = bend(&a[axis], to) + 0.125 * c * second * (to * to);
             let rounding = ROUNDING * peak.norm;
             let arch = Arch { bend, rounding, ends: ends.map(|v| v[axis].abs()), to };
             arch.search(|x| of(x)[axis].abs(), &mut peak.axes[axis]);
         }
+        ends
+    }
+
+    /// Looks for peaks of `V = A − c φ`; with `|φ| = f` that of `|V|² = |A|² − 2 c A·φ + c² f²` is flat where
+    /// `A` is small.
+    fn look(&self, peak: &mut Peak, composed: &Composed, series: &Series, to: f64) {
+        let of = |x: f64| Self::composed(composed, series, x);
+        let ends = self.look_at_axes(peak, composed, series, to);
+        let (a, c) = (&composed.steady, composed.of_friction);
+        let [size, first, second] = self.sizes;
         let [mut slopes, mut sizes, mut bends] = [[0.0; 2]; 3];
         for axis in 0..2 {
             [slopes[axis], sizes[axis]] = bounds(&a[axis], to);

@@ -1,6 +1,5 @@
 //! The motion by powers of the time: in stick, in slip, and in slip from rest.
 
-use super::start::Along;
 use super::system::{Loads, State, System, inner, norm};
 use super::terms::{LOW, NEGLIGIBLE, Scales, Sizes};
 use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, deflated, first_root, value};
@@ -102,6 +101,15 @@ pub(super) fn square(a: &Polynomial, k: usize) -> f64 {
     let sides = convolved(&a[..half], &a[k + 1 - half..=k]);
     let middle = if k.is_multiple_of(2) { a[k / 2] * a[k / 2] } else { 0.0 };
     2.0 * sides + middle
+}
+
+/// A start by components along and across `p` at its beginning.
+#[derive(Default)]
+pub(super) struct Along {
+    pub(super) axes: [[f64; 2]; 2],
+    pub(super) cosine: Polynomial,
+    pub(super) sine: Polynomial,
+    pub(super) w: [Polynomial; 2],
 }
 
 impl Series {
@@ -323,10 +331,15 @@ impl Series {
         }
     }
 
-    /// How much of the unit the last terms allow, and that the direction is that of `w` on all of it.
+    /// How much of the unit the last terms allow, and that the direction is that of `w` on all of it; NaN where
+    /// the terms are beyond all numbers, over a unit far too long.
     fn fit(&mut self, scales: &Scales) {
         let mut part = self.fitting_part(scales);
         if matches!(self.kind, Kind::Slip | Kind::Start) {
+            if !self.is_finite() {
+                self.part = f64::NAN;
+                return;
+            }
             // |w| > 0 on all of it.
             let order = self.speed.iter().position(|r| *r != 0.0).unwrap_or(0);
             let speed = deflated(&self.speed, order);
@@ -342,6 +355,13 @@ impl Series {
             }
         }
         self.part = part.min(1.0);
+    }
+
+    /// Whether no term has overflown: what has, does so in all orders that follow.
+    fn is_finite(&self) -> bool {
+        let lists = [&self.w, &self.direction, &self.friction];
+        let terms = lists.into_iter().flatten().map(|list| list[self.degree]);
+        terms.chain([self.speed[self.degree]]).sum::<f64>().is_finite()
     }
 
     /// Whether `u` is that of `w`.

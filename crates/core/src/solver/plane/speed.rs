@@ -3,7 +3,7 @@
 use super::peaks::{bend, squared};
 use super::series::{Kind, Series};
 use super::system::norm;
-use crate::linear::polynomial::{DEGREE, Polynomial, derivative, value};
+use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, derivative, value};
 
 /// The least local minimum of `|w|` within a slip.
 #[derive(Clone, Copy, Debug, Default)]
@@ -44,6 +44,10 @@ impl Least {
         if to == 0.0 {
             return;
         }
+        // A speed that stays turns where it leaves.
+        if *slope == ZERO {
+            return;
+        }
         let end = value(slope, to);
         if self.is_falling && slope[0] >= 0.0 {
             self.note(of(0.0));
@@ -60,7 +64,7 @@ impl Least {
 }
 
 /// Points of `(0, to]` at which a slope changes its sign, and whether it is to +.
-fn turns(slope: &Polynomial, to: f64) -> impl Iterator<Item = (f64, bool)> {
+pub(super) fn turns(slope: &Polynomial, to: f64) -> impl Iterator<Item = (f64, bool)> {
     let (mut from, mut falls) = (0.0, slope[0] < 0.0);
     let next = move || {
         let turn = (next_zero(slope, from, to, falls)?, falls);
@@ -168,7 +172,6 @@ fn adaptive(of: &dyn Fn(f64) -> f64, [from, to]: [f64; 2], whole: f64, tolerance
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linear::polynomial::ZERO;
 
     /// A polynomial by its lowest coefficients.
     fn polynomial(of: &[f64]) -> Polynomial {
@@ -189,6 +192,18 @@ mod tests {
             (0..=100_000).map(|k| value(&speed, k as f64 * 1e-5)).fold(f64::INFINITY, f64::min);
         let found = least.speed.expect("a minimum");
         assert!((found - by_samples).abs() <= 1e-10, "{found} {by_samples}");
+    }
+
+    /// A speed that falls and then stays has no minimum until it rises.
+    #[test]
+    fn a_speed_that_stays_is_no_minimum_until_it_rises() {
+        let mut least = Least::default();
+        let mut look = |slope: &[f64], speed: f64| {
+            least.look_at(&polynomial(slope), |_| speed, (0.0, 1.0));
+            least.speed
+        };
+        assert_eq!([look(&[-1.0], 2.0), look(&[], 1.0), look(&[], 1.0)], [None; 3]);
+        assert_eq!(look(&[1.0], 1.0), Some(1.0));
     }
 
     /// `∫|x − c|`, and that of a length which comes to 1e-9 of zero, wherever that is.

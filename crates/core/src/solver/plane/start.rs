@@ -1,18 +1,9 @@
 //! Slip from rest.
 
 use super::mass::{Mass, times};
-use super::series::{Series, convolved};
+use super::series::{Along, Series, convolved};
 use super::system::{System, cross, inner, norm};
 use crate::linear::polynomial::Polynomial;
-
-/// A start by components along and across `p` at its beginning.
-#[derive(Default)]
-pub(super) struct Along {
-    axes: [[f64; 2]; 2],
-    cosine: Polynomial,
-    sine: Polynomial,
-    w: [Polynomial; 2],
-}
 
 impl Series {
     /// `u` of a slip from rest, with `e₁ = p_0/|p_0|`, `u = c e₁ + s e₂`, `w = r u`:

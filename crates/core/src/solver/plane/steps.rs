@@ -2,11 +2,12 @@
 
 use super::Plane;
 use super::near_rest;
+use super::peaks::squared;
 use super::series::{Kind, square};
-use super::speed::path_m;
-use super::stop::Instant;
+use super::speed::{path_m, turns};
+use super::stop::{Instant, REST};
 use super::system::{Loads, inner, norm};
-use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, value};
+use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, derivative, value};
 use crate::solver::ground::Stretch;
 use crate::solver::slider::{ROUNDING, falls_below, first_crossing, leading};
 
@@ -40,11 +41,9 @@ impl Plane<'_> {
     pub(super) fn distance(&self) -> Polynomial {
         let p = &self.series.friction;
         let [normal, rate] = self.series.loads.normal;
-        let change = self.system.static_per_kg * (rate * self.series.unit);
-        let holds = self.system.static_per_kg * normal;
+        let radius = self.system.hold.squared_radius([normal, rate * self.series.unit]);
         let mut distance = ZERO;
-        let bound = [holds * holds, 2.0 * holds * change, change * change];
-        distance[..3].copy_from_slice(&bound);
+        distance[..3].copy_from_slice(&radius);
         let last = DEGREE.min(2 * self.series.degree);
         for (k, distance) in distance[..=last].iter_mut().enumerate() {
             *distance -= square(&p[0], k) + square(&p[1], k);
@@ -63,7 +62,7 @@ impl Plane<'_> {
             let slider = springs * self.state.s[axis].abs();
             terms += (shear + slider) / system.block_kg + inertia * loads.table[axis][0].abs();
         }
-        let holds = system.static_per_kg * loads.normal[0];
+        let holds = system.hold.radius(loads.normal[0]);
         2.0 * ROUNDING * (holds * holds + norm(push).max(holds) * terms)
     }
 
@@ -88,7 +87,10 @@ impl Plane<'_> {
         let is_pressed = loads.normal[0] > 0.0 || loads.normal[1] > 0.0;
         let has_friction = is_pressed && !self.system.kinetic_per_kg.is_none();
         if !has_friction {
-            self.starts = false;
+            if !core::mem::take(&mut self.starts) && self.rests_without_friction(&loads) {
+                self.state.w = [0.0; 2];
+                return at_s;
+            }
             return self.step_in_time(Kind::Frictionless, (stretch, at_s), loads, left_s);
         }
         let at = self.instant(&loads);
@@ -133,14 +135,55 @@ impl Plane<'_> {
             let (system, scales) = (&self.system, &self.scales);
             self.series.expand(system, (kind, &self.state), (loads, unit_s), scales);
             let part = self.series.part;
-            // Far beyond what a series takes its terms lose their digits.
-            if part >= 1e-3 || part == 0.0 || !part.is_finite() {
+            // Far beyond what a series takes its terms lose their digits, and overflow.
+            if part >= 1e-3 || part == 0.0 || !(unit_s > 0.0) {
                 break;
             }
-            unit_s *= 4.0 * part;
+            unit_s *= if part.is_nan() { 1e-4 } else { 4.0 * part };
+        }
+        if kind == Kind::Frictionless
+            && let Some(part) = self.part_to_rest()
+        {
+            let to_s = self.move_by(stretch, at_s, part);
+            self.state.w = [0.0; 2];
+            return to_s;
         }
         let part = self.series.part;
         self.move_by(stretch, at_s, part)
+    }
+
+    /// Whether a slip without friction is at rest where the block would be held.
+    fn rests_without_friction(&mut self, loads: &Loads) -> bool {
+        let speed = norm(self.state.w);
+        if !(speed > 0.0 && speed <= REST * self.peak_speed) {
+            return false;
+        }
+        let at = self.instant(loads);
+        norm(at.push) <= at.holds
+    }
+
+    /// The part of a series without friction at which straight motion comes to rest where the block is held.
+    fn part_to_rest(&self) -> Option<f64> {
+        let series = &self.series;
+        let [normal, rate] = series.loads.normal;
+        if self.system.hold.radius(1.0) == 0.0 || (normal == 0.0 && rate == 0.0) {
+            return None;
+        }
+        let slope = derivative(&squared(&series.w));
+        let mut peak = self.peak_speed;
+        for (x, is_least) in turns(&slope, series.part) {
+            let speed = norm(series.velocity_at(x));
+            peak = peak.max(speed);
+            if is_least && speed <= REST * peak {
+                let loads = series.loads.after(series.unit * x);
+                let push =
+                    loads.push(&self.system, [0, 1].map(|axis| value(&series.pull[axis], x)));
+                if self.system.hold.excess(norm(push), loads.normal[0]) <= 0.0 {
+                    return Some(x);
+                }
+            }
+        }
+        None
     }
 
     fn step_near_rest(

@@ -42,7 +42,7 @@ impl Instant {
             push: loads.push(system, pull),
             friction,
             to_rest: [friction.min(at_rest), friction.max(at_rest)],
-            holds: system.static_per_kg * loads.normal[0],
+            holds: system.hold.radius(loads.normal[0]),
         }
     }
 

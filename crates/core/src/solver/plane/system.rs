@@ -5,7 +5,7 @@ use crate::error::SolveError;
 use crate::linear;
 use crate::model::{Model, OscillatorInPlane, Structure};
 use crate::numerics::algebra::dot;
-use crate::slider::Kinetic;
+use crate::slider::{Disc, Kinetic};
 use crate::solver::outputs::overturning;
 use crate::solver::tables::system_of;
 
@@ -39,8 +39,8 @@ pub(in crate::solver) struct System {
     pub(super) damper_n_s_per_m: f64,
     /// `1/R` in 1/m, 0 where there is no pendulum.
     pub(super) per_radius: f64,
-    /// `μ_s/M1` and `μ_k/M1`: times `N` the accelerations that friction holds and takes.
-    pub(super) static_per_kg: f64,
+    /// The accelerations that friction holds, `μ_s N/M1`, and `μ_k/M1`: times `N` that which it takes.
+    pub(super) hold: Disc,
     pub(super) kinetic_per_kg: Kinetic,
     omega2: Vec<f64>,
     /// `D`, row by row where the modes are coupled, else its diagonal.
@@ -100,7 +100,7 @@ impl System {
             stiffness_n_per_m: slider.stiffness_n_per_m,
             damper_n_s_per_m: model.slider().damper_n_s_per_m,
             per_radius: slider.per_radius,
-            static_per_kg: slider.fixed * per_kg,
+            hold: slider.hold.times(per_kg),
             kinetic_per_kg: slider.kinetic.times(per_kg),
             omega2: if n == 0 {
                 Vec::new()
@@ -200,7 +200,7 @@ impl System {
             stiffness_n_per_m: slider.stiffness_n_per_m,
             damper_n_s_per_m,
             per_radius: slider.per_radius,
-            static_per_kg: slider.fixed * per_kg,
+            hold: slider.hold.times(per_kg),
             kinetic_per_kg: slider.kinetic.times(per_kg),
             omega2,
             damping,

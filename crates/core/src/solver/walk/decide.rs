@@ -215,13 +215,12 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
         if !stopped {
             let hold = self.course.hold(at.place_m);
             let demand_n = self.phase.demand_n(&hold, [stretch.acceleration_at(at_s), at.normal_n]);
-            let [low, high] = hold.friction_n(at.normal_n);
-            let ambiguous_n = AMBIGUOUS * (high - low);
-            if demand_n > low + ambiguous_n && demand_n < high - ambiguous_n {
+            let [excess_n, width_n] = hold.excess_and_width_n(demand_n, at.normal_n);
+            if excess_n < -AMBIGUOUS * width_n {
                 return Some(false);
             }
             let direction = hold.gives_way(demand_n, at.normal_n)?;
-            if !(demand_n < low - ambiguous_n || demand_n > high + ambiguous_n) {
+            if !(excess_n > AMBIGUOUS * width_n) {
                 return None;
             }
             self.note_before(stretch, at_s, at_sample);

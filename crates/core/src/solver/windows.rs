@@ -3,8 +3,8 @@
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
-use super::lanes::{BATCH, greatest};
-use crate::linear::QUIET;
+use crate::linear::lanes::greatest;
+use crate::linear::{BATCH, QUIET};
 
 /// What bounds a motion over some samples.
 #[derive(Clone, Copy, Debug, Default)]
@@ -17,7 +17,7 @@ pub(super) struct Extent {
 
 /// Those of all batches of a motion.
 #[derive(Debug)]
-pub(in crate::solver) struct Windows {
+pub(super) struct Windows {
     /// Over the samples and intervals that begin in each eight, with zeros after the last.
     eights: Vec<Extent>,
 }
@@ -27,7 +27,7 @@ const TOUCHED: usize = QUIET / BATCH + 1;
 
 impl Windows {
     #[inline(never)]
-    pub(in crate::solver) fn new<S: Simd>(simd: S, table: &[f64]) -> Self {
+    pub(super) fn new<S: Simd>(simd: S, table: &[f64]) -> Self {
         let mut eights = Vec::with_capacity(table.len() / BATCH + TOUCHED);
         simd.vectorize(
             #[inline(always)]

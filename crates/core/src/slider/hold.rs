@@ -1,0 +1,216 @@
+//! What holds at rest: the forces that friction carries, an interval in one direction and a disc in two.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+
+use super::Direction;
+use crate::linear::lanes::{eight, greatest, least};
+use crate::linear::polynomial::Polynomial;
+
+/// What holds the block at rest: friction carries `low N ≤ T ≤ high N`, where
+/// `T = demand + force + of_normal N`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Hold {
+    /// Force of springs and elastic stop in N.
+    pub(crate) force_n: f64,
+    /// Force over the normal force.
+    pub(crate) of_normal: f64,
+    /// What friction holds, over the normal force: `−μ_s⁺` and `μ_s⁻`.
+    pub(super) friction: [f64; 2],
+    /// Whether a rigid stop holds what friction cannot: a push of the ground towards −x (the block
+    /// leans on the stop towards +x), and one towards +x.
+    pub(crate) leans: [bool; 2],
+}
+
+impl Hold {
+    /// Friction alone, of one coefficient.
+    pub(crate) fn of_friction(coefficient: f64) -> Self {
+        let friction = [-coefficient, coefficient];
+        Self { force_n: 0.0, of_normal: 0.0, friction, leans: [false; 2] }
+    }
+
+    /// What holds off rigid stops.
+    pub(crate) fn off_stops(self) -> Self {
+        Self { leans: [false; 2], ..self }
+    }
+
+    /// The forces that friction alone holds under a normal force.
+    #[inline(always)]
+    pub(crate) fn friction_n(&self, normal_n: f64) -> [f64; 2] {
+        self.friction.map(|bound| bound * normal_n)
+    }
+
+    /// The same under eight normal forces.
+    #[inline(always)]
+    pub(crate) fn friction_of_eight<S: Simd>(&self, simd: S, normal_n: f64x8<S>) -> [f64x8<S>; 2] {
+        let [low, high] = self.friction;
+        [normal_n * eight(simd, low), normal_n * eight(simd, high)]
+    }
+
+    /// The forces between which the block stays under a normal force.
+    #[inline(always)]
+    pub(crate) fn holds_n(&self, normal_n: f64) -> [f64; 2] {
+        let [low, high] = self.friction_n(normal_n);
+        [
+            if self.leans[0] { f64::NEG_INFINITY } else { low },
+            if self.leans[1] { f64::INFINITY } else { high },
+        ]
+    }
+
+    /// How far a force is beyond what friction alone holds, negative within, and the width of that.
+    #[inline(always)]
+    pub(crate) fn excess_and_width_n(&self, force_n: f64, normal_n: f64) -> [f64; 2] {
+        let [low, high] = self.friction_n(normal_n);
+        [greatest(force_n - high, low - force_n), high - low]
+    }
+
+    /// The force that friction alone holds against any direction, from the least normal force.
+    #[inline(always)]
+    pub(crate) fn least_n(&self, normal_n: f64) -> f64 {
+        let [low, high] = self.friction;
+        least(high, -low) * normal_n
+    }
+
+    /// The largest force that friction alone holds; none where springs of surfaces hold any.
+    pub(crate) fn largest_n(&self, normal_n: f64) -> f64 {
+        let finite =
+            self.friction.iter().map(|bound| bound.abs()).filter(|bound| bound.is_finite());
+        finite.fold(0.0, f64::max) * normal_n
+    }
+
+    /// What friction holds against sliding in a direction, over the normal force.
+    #[inline(always)]
+    pub(super) fn size(&self, direction: Direction) -> f64 {
+        direction.of([-self.friction[0], self.friction[1]])
+    }
+
+    /// What friction holds against sliding in a direction.
+    #[inline(always)]
+    pub(crate) fn against_n(&self, direction: Direction, normal_n: f64) -> f64 {
+        self.size(direction) * normal_n
+    }
+
+    /// Whether a force can make the block slide in a direction.
+    pub(crate) fn gives(&self, direction: Direction) -> bool {
+        self.size(direction).is_finite() && !direction.of(self.leans)
+    }
+
+    /// How far a demand and a normal force, linear in time, leave the block from sliding in a direction:
+    /// positive where friction holds.
+    #[inline(always)]
+    pub(crate) fn distance(
+        &self,
+        demand: &Polynomial,
+        [normal_n, rise_n]: [f64; 2],
+        direction: Direction,
+    ) -> Polynomial {
+        let (sign, size) = (direction.sign(), self.size(direction));
+        let mut distance = demand.map(|c| sign * c);
+        distance[0] += size * normal_n;
+        distance[1] += size * rise_n;
+        distance
+    }
+
+    /// Where the block rests against a rigid stop: how much of its push friction cannot take, positive
+    /// where the stop takes some; and the sign of that push.
+    pub(crate) fn beyond_friction(
+        &self,
+        asked: &Polynomial,
+        [normal_n, rise_n]: [f64; 2],
+    ) -> Option<(f64, Polynomial)> {
+        let side = self.leans.iter().position(|leans| *leans)?;
+        let (sign, bound) = (if side == 0 { -1.0 } else { 1.0 }, self.friction[side]);
+        let mut beyond = asked.map(|c| sign * c);
+        beyond[0] -= sign * (bound * normal_n);
+        beyond[1] -= sign * (bound * rise_n);
+        Some((sign, beyond))
+    }
+
+    /// Whether friction holds a force that it is asked for, eq. (4); at the bound it does. Else the
+    /// direction in which the block slides, against the force, eq. (3).
+    #[inline(always)]
+    pub(crate) fn gives_way(&self, force_n: f64, normal_n: f64) -> Option<Direction> {
+        let [low, high] = self.holds_n(normal_n);
+        if force_n > high {
+            Some(Direction::Negative)
+        } else if force_n < low {
+            Some(Direction::Positive)
+        } else {
+            None
+        }
+    }
+
+    /// How near a decision about a force was, over what friction holds; none where it holds nothing,
+    /// or a stop holds.
+    pub(crate) fn margin(&self, force_n: f64, normal_n: f64) -> Option<f64> {
+        let [low, high] = self.holds_n(normal_n);
+        let margin = if low <= 0.0 && high >= 0.0 {
+            let bound = if force_n < 0.0 { -low } else { high };
+            if bound <= 0.0 {
+                return None;
+            }
+            (1.0 - force_n.abs() / bound).abs()
+        } else {
+            // The springs of surfaces push the block back.
+            let [a, b] = self.friction_n(normal_n).map(f64::abs);
+            ((force_n - high).max(low - force_n) / a.max(b)).abs()
+        };
+        Some(margin).filter(|margin| margin.is_finite())
+    }
+}
+
+/// What holds a block in two directions: friction carries `|p| ≤ of_normal N`, of the pushes `p` that it is asked
+/// to carry.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Disc {
+    pub(super) of_normal: f64,
+}
+
+impl Disc {
+    /// The same for pushes times a factor.
+    pub(crate) fn times(self, factor: f64) -> Self {
+        Self { of_normal: factor * self.of_normal }
+    }
+
+    /// Its radius under a normal force.
+    #[inline(always)]
+    pub(crate) fn radius(&self, normal_n: f64) -> f64 {
+        self.of_normal * normal_n
+    }
+
+    /// How far a push of a size is beyond it, negative within; at the bound friction holds.
+    pub(crate) fn excess(&self, push: f64, normal_n: f64) -> f64 {
+        push - self.radius(normal_n)
+    }
+
+    /// How near a decision about that was, over what friction holds; none where it holds nothing.
+    pub(crate) fn margin(&self, push: f64, normal_n: f64) -> Option<f64> {
+        let radius = self.radius(normal_n);
+        (radius > 0.0).then(|| self.excess(push, normal_n).abs() / radius)
+    }
+
+    /// The square of the radius under a normal force and its change over a unit, by powers of the part of it.
+    pub(crate) fn squared_radius(&self, [normal_n, change_n]: [f64; 2]) -> [f64; 3] {
+        let [radius, change] = [normal_n, change_n].map(|n| self.radius(n));
+        [radius * radius, 2.0 * radius * change, change * change]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn excess_is_how_far_a_force_is_beyond_what_holds_and_none_at_the_bound() {
+        let hold = Hold { friction: [-0.25, 0.5], ..Hold::of_friction(0.0) };
+        for (force_n, excess_n) in [(6.0, 2.0), (4.0, 0.0), (0.0, -2.0), (-2.0, 0.0), (-5.0, 3.0)] {
+            assert_eq!(hold.excess_and_width_n(force_n, 8.0), [excess_n, 6.0]);
+            assert_eq!(hold.gives_way(force_n, 8.0).is_some(), excess_n > 0.0);
+        }
+        let disc = Disc { of_normal: 0.25 }.times(2.0);
+        assert_eq!([3.0, 4.0, 5.0].map(|push| disc.excess(push, 8.0)), [-1.0, 0.0, 1.0]);
+        assert_eq!((disc.margin(5.0, 8.0), disc.margin(5.0, 0.0)), (Some(0.25), None));
+        let [c, b, a] = disc.squared_radius([8.0, -4.0]);
+        assert_eq!(c + 0.5 * (b + 0.5 * a), disc.radius(6.0) * disc.radius(6.0));
+    }
+}

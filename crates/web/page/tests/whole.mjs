@@ -1,0 +1,165 @@
+// What leaves the page is what the command makes of the same: figures, reports, whole analyses.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { unzipSync } from "fflate";
+import { drop, settled, temporary } from "./harness.mjs";
+
+const SINE = 'sine = { frequency = "1.1 Hz", amplitude = "3 m/s2", duration = "6 s", dt = "0.01 s" }';
+const model = (name, slider, more = "", motion = SINE) => [name, `name = "${name}"\n[block]\nmass = "20 t"\n[slider]\n${slider}\n${more}\n[motion]\n${motion}\n[analysis]\ntail = "2 s"\n`];
+const storey = '[[storey]]\nmass = "12 t"\nfrequency = "1.6 Hz"\ndamping_ratio = 0.02\n';
+const two = 'static_friction = 0.08\nkinetic_friction = 0.06\n';
+const pair = 'record = "records/taft-021.txt"\nrecord_y = "records/taft-111.txt"\nunits = "g"\ndt = "0.01 s"\nunits_y = "g"\ndt_y = "0.01 s"';
+
+/** Devices, structures and directions: each a model of its own. */
+const MODELS = [
+  model("rigid", two),
+  model("pendulum", `${two}radius = "2 m"\ngap = "150 mm"`, storey),
+  model("spring and damper", `${two}spring = "300 kN/m"\ndamping_ratio = 0.05`, storey),
+  model("bounds", `${two}radius = "2 m"\nbounds = { lower = 0.8, upper = 1.3 }`, storey),
+  model("tilt and asymmetry", `${two}radius = "3 m"\ntilt = "2 mrad"\nasymmetry = 0.1`),
+  model("rigid stop", `${two}radius = "2 m"\nstop = { gap = "30 mm", restitution = 0.4 }`, storey),
+  model("friction of the speed", `static_friction = 0.08\nkinetic_friction = { slow = 0.03, fast = 0.08, rate = "50 s/m" }\nradius = "2 m"`, storey),
+  model("contents", `${two}radius = "2 m"`, `${storey}[[contents]]\nfloor = 1\nmass = "200 kg"\nstatic_friction = 0.2\nkinetic_friction = 0.15\n`),
+  model("frame", `${two}radius = "2 m"`, `${storey.replace('frequency = "1.6 Hz"', 'stiffness = "4 MN/m"').repeat(3)}`),
+  model("two directions", `${two}radius = "2 m"`, "", pair),
+];
+
+/** Unpacks a download into a folder, and runs its commands there. */
+async function repeated(got, command, folder) {
+  for (const [name, bytes] of Object.entries(unzipSync(readFileSync(await got.path())))) {
+    mkdirSync(dirname(join(folder, name)), { recursive: true });
+    writeFileSync(join(folder, name), bytes);
+  }
+  for (const line of readFileSync(join(folder, "command.txt"), "utf8").trim().split("\n")) {
+    const words = line.split(" ").slice(1).join(" ");
+    // The shell reads the quotes.
+    execFileSync("/bin/sh", ["-c", `"$SLIPSTICK" ${words}`], { cwd: folder, env: { ...process.env, SLIPSTICK: command }, stdio: ["ignore", "ignore", "pipe"] });
+  }
+}
+
+function same(folder, names) {
+  for (const name of names) {
+    assert.equal(readFileSync(join(folder, "page", name), "utf8"), readFileSync(join(folder, "out", name), "utf8"), name);
+  }
+}
+
+export function whole(test, on, root) {
+  const command = process.env.SLIPSTICK_COMMAND;
+  const skipped = "skipped: SLIPSTICK_COMMAND names no command";
+
+  test("headline figures of ten models are the command's bits, devices and two directions among them", () =>
+    on(async (page) => {
+      if (!command) return skipped;
+      const out = temporary();
+      try {
+        mkdirSync(join(out.folder, "records"));
+        for (const name of ["taft-021.txt", "taft-111.txt"]) writeFileSync(join(out.folder, "records", name), readFileSync(join(root, "examples/records", name)));
+        for (const [name, text] of MODELS) {
+          writeFileSync(join(out.folder, "model.toml"), text);
+          const there = JSON.parse(execFileSync(command, ["run", "model.toml", "--json", "-q"], { cwd: out.folder, maxBuffer: 1e8 }).toString());
+          await drop(page, ["model.toml", text]);
+          await page.evaluate(() => globalThis.dropped);
+          await page.waitForFunction((name) => globalThis.slipstick.answer?.state.name === name, name);
+          await settled(page);
+          const here = await page.evaluate(() => globalThis.slipstick.answer.state.headline);
+          assert.ok(here.peak_m > 0, `${name} slides`);
+          for (const [own, key] of [["peak_m", "peak_sliding_displacement_m"], ["peakTime_s", "peak_sliding_displacement_time_s"], ["residual_m", "residual_sliding_displacement_m"], ["gapRatio", "gap_ratio"], ["slips", "slip_count"], ["baseShear", "base_shear_coefficient"]]) {
+            assert.ok(key in there, key);
+            assert.ok(Object.is(here[own], there[key]), `${name}: ${key} ${here[own]} here, ${there[key]} there`);
+          }
+          assert.ok(Object.is(here.block_m_per_s2, there.block.peak_acceleration_m_per_s2), `${name}: the block's acceleration`);
+          assert.ok(Object.is(here.roof_m_per_s2, there.storeys.at(-1)?.peak_acceleration_m_per_s2 ?? null), `${name}: the roof's acceleration`);
+        }
+      } finally {
+        out.remove();
+      }
+    }));
+
+  test("the report in the ZIP is the command's, byte for byte, in the units of the page", () =>
+    on(async (page) => {
+      if (!command) return skipped;
+      for (const units of ["si", "us"]) {
+        await page.getByLabel("Units", { exact: true }).selectOption(units);
+        await settled(page);
+        await page.getByText("Export", { exact: true }).click();
+        const [got] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Everything (ZIP)" }).first().click()]);
+        const out = temporary();
+        try {
+          await repeated(got, command, out.folder);
+          same(out.folder, ["report.html", "summary.json", "history.csv", "events.csv"]);
+        } finally {
+          out.remove();
+        }
+      }
+    }, { acceptDownloads: true }));
+
+  for (const id of ["suite", "spectrum", "ida", "fragility", "design"]) {
+    test(`the ZIP of ${id} holds all that its command needs, which makes the same of it`, () =>
+      on(async (page) => {
+        if (!command) return skipped;
+        // A file that says its units beside those that do not.
+        await drop(page, ["own.AT2", readFileSync(join(root, "data/records/nga-west2.AT2"))]);
+        await page.evaluate(() => globalThis.dropped);
+        await settled(page);
+        await page.locator(`#tab-${id}`).click();
+        const panel = page.locator(`#panel-${id}`);
+        await panel.locator("button.main:not([disabled])").click();
+        await panel.locator(".sheet").waitFor({ timeout: 90000 });
+        const [got] = await Promise.all([page.waitForEvent("download"), panel.getByRole("button", { name: "Everything (ZIP)" }).click()]);
+        const out = temporary();
+        try {
+          await repeated(got, command, out.folder);
+          // A fragility's report says the hash of the table that it was fitted to, which only the command wrote.
+          same(out.folder, id === "fragility" ? ["summary.json"] : ["summary.json", "report.html"]);
+        } finally {
+          out.remove();
+        }
+      }, { acceptDownloads: true }));
+  }
+
+  test("a plan has as many runs as the analysis that the page shows, or says why there is none", () =>
+    on(async (page) => {
+      if (!command) return skipped;
+      await page.locator("#tab-spectrum").click();
+      const panel = page.locator("#panel-spectrum");
+      await panel.locator("[name=over]").waitFor();
+      await panel.locator("button.main:not([disabled])").click();
+      await panel.locator(".sheet").waitFor({ timeout: 60000 });
+      const runs = await page.evaluate(() => Number(/([\d ]+) runs/.exec(document.querySelector("#panel-spectrum .sheet").innerText)?.[1].replaceAll(" ", "")));
+      const [got] = await Promise.all([page.waitForEvent("download"), panel.getByRole("button", { name: "Plan (TOML)" }).click()]);
+      const out = temporary();
+      try {
+        writeFileSync(join(out.folder, "plan.toml"), readFileSync(await got.path()));
+        writeFileSync(join(out.folder, "model.toml"), await page.evaluate(() => globalThis.slipstick.text));
+        mkdirSync(join(out.folder, "records"));
+        for (const name of ["taft-021.txt", "taft-111.txt", "el-centro-180.txt"]) writeFileSync(join(out.folder, "records", name), readFileSync(join(root, "examples/records", name)));
+        const dry = execFileSync(command, ["study", "plan.toml", "--dry-run", "-q"], { cwd: out.folder }).toString();
+        assert.equal(Number(/runs +([\d ,]+)/.exec(dry)[1].replaceAll(/[ ,]/g, "")), runs, dry);
+      } finally {
+        out.remove();
+      }
+      await page.locator("#tab-ida").click();
+      const ida = page.locator("#panel-ida");
+      await ida.locator("[name=measure]").waitFor();
+      await ida.getByRole("button", { name: "Plan (TOML)" }).click();
+      await page.waitForFunction(() => /the levels are hunted, record by record/.test(document.querySelector(".note-bar:not(.busy)").textContent));
+    }, { acceptDownloads: true }));
+
+  test("the animation leaves as a film", () =>
+    on(async (page) => {
+      await page.evaluate(() => {
+        globalThis.slipstick.clock.zoom([4, 5.5]);
+        globalThis.slipstick.stage.speed = 1;
+      });
+      await page.getByText("Export", { exact: true }).click();
+      const [got] = await Promise.all([page.waitForEvent("download", { timeout: 20000 }), page.getByRole("button", { name: "Animation (film)" }).click()]);
+      assert.equal(got.suggestedFilename(), "animation.webm");
+      const bytes = readFileSync(await got.path());
+      assert.equal(bytes.readUInt32BE(0), 0x1a45dfa3, "an EBML file");
+      assert.ok(bytes.length > 10_000, `${bytes.length} bytes`);
+      assert.ok(existsSync(await got.path()));
+    }, { acceptDownloads: true }));
+}
