@@ -101,7 +101,7 @@ impl Body {
 
     /// How long a slip lasts under a push that does, `|push| < f`, and its last direction; the time is a bound where
     /// the way is longer than asked for.
-    pub(super) fn to_rest(
+    pub(super) fn way_to_rest(
         &self,
         w: Pair,
         push: Pair,
@@ -122,11 +122,11 @@ impl Body {
         let (mut angle, mut left, mut time_s) = (libm::atan2(w[1], w[0]), 1.0_f64, 0.0);
         for _ in 0..MOST_STEPS {
             let a = self.rates(angle, push, slowing);
-            if left < FOLLOWED {
-                if let Some(found) = self.end_of_turn((angle, a[0]), push, slowing, scale) {
-                    angle = found;
-                    break;
-                }
+            if left < FOLLOWED
+                && let Some(found) = self.end_of_turn((angle, a[0]), push, slowing, scale)
+            {
+                angle = found;
+                break;
             }
             let b = self.rates(angle + step / 3.0 * a[0], push, slowing);
             let c = self.rates(angle + 2.0 * step / 3.0 * b[0], push, slowing);

@@ -136,7 +136,7 @@ impl<'a> PlaneJudge<'a> {
             return body.departure(push, slowing);
         }
         // Of a speed that is of no account.
-        body.to_rest(times(from, 1e-200), push, slowing, 1.0)?.1
+        body.way_to_rest(times(from, 1e-200), push, slowing, 1.0)?.1
     }
 
     /// The last direction of sliding before a stop at a knot.

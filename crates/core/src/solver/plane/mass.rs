@@ -100,7 +100,7 @@ impl Mass {
 
     /// The time to rest and the last direction of a slip under a push that lasts, `|p| < f`: there is no closed form
     /// as there is for one mass.
-    pub(super) fn to_rest(&self, w: [f64; 2], push: [f64; 2], friction: f64) -> (f64, [f64; 2]) {
+    pub(super) fn way_to_rest(&self, w: [f64; 2], push: [f64; 2], friction: f64) -> (f64, [f64; 2]) {
         let (mut angle, mut log, mut time) = (libm::atan2(w[1], w[0]), 0.0_f64, 0.0_f64);
         let speed = norm(w);
         let at = |angle: f64| [libm::cos(angle), libm::sin(angle)];

@@ -65,7 +65,7 @@ impl Instant {
         let time_s = match &system.mass {
             None => (f * r + inner(self.push, state.w)) / ((f - p) * (f + p)),
             Some(_) if !(r * longest_s < MASSIVE_PATH_M) => return None,
-            Some(mass) => mass.to_rest(state.w, self.push, f).0,
+            Some(mass) => mass.way_to_rest(state.w, self.push, f).0,
         };
         if !(r * time_s < NO_PATH_M) {
             return None;
@@ -123,7 +123,7 @@ impl Instant {
                 let is_straight = cross(from, rate).abs() < STRAIGHT * norm(rate);
                 match is_straight {
                     true => from,
-                    false if p < f => mass.to_rest(w, push, f).1,
+                    false if p < f => mass.way_to_rest(w, push, f).1,
                     false => system.departure(push, f),
                 }
             }
