@@ -253,6 +253,7 @@ impl Response {
 
     /// Force of the whole slider at the knots in N, rising with the displacement.
     fn _slider_force<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        self.history()?;
         let model = &self.job()?.job.analysis.model;
         let force = self.response().map(|response| response.slider_force_n(model));
         Ok(force.unwrap_or_default().into_pyarray(py))

@@ -35,7 +35,7 @@ def test_measures_are_those_of_the_command() -> None:
     found = taft().measures()
     assert len(found) == 15 and found == {key: info[key] for key in found}
     named = taft().measures("Sa(1.2 s)", "Sa_avg(0.5 s, 3 s)")
-    assert named["Sa(1.2 s)"] == taft().spectrum("1.2 s")["psa_m_per_s2"][0]
+    assert named["Sa(1.2 s)"] == taft().spectrum("1.2 s")["sa_m_per_s2"][0]
     of_pair = pair().measures("RotD50(1 s)", "PGA")
     assert of_pair["x"] == found and of_pair["RotD50(1 s)"] > 0.0
     assert of_pair["PGA"] == np.sqrt(of_pair["x"]["pga_m_per_s2"] * of_pair["y"]["pga_m_per_s2"])
@@ -119,9 +119,10 @@ def test_files_are_those_of_the_command(tmp_path: Path, ending: str) -> None:
     command("record", "convert", TAFT, *TOLD, told)
     assert taft().write(written) == written
     assert written.read_bytes() == told.read_bytes()
-    again = ss.read_record(written)
-    if ending in ("csv", "parquet"):
-        assert again == taft()
+    # A table of Parquet is no record's format.
+    if ending != "parquet":
+        again = ss.read_record(written)
+        assert ending != "csv" or again == taft()
     with pytest.raises(ss.InputError, match="^write: expected a motion in one direction"):
         pair().write(tmp_path / f"pair.{ending}")
     pair().components["y"].write(written)
