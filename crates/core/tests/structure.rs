@@ -7,7 +7,7 @@
 mod common;
 
 use common::cases::all;
-use common::eigen::eigen;
+use common::eigen::modes_of;
 use slipstick::check::check;
 use slipstick::model::{
     Block, Damping, Frame, InitialState, Model, Slider, Stop, Structure, StructureMode,
@@ -26,22 +26,10 @@ fn by_modes(model: &Model) -> Model {
     let frame = model.frame();
     let (m, k) = (&frame.masses_kg, &frame.stiffnesses_n_per_m);
     let n = m.len();
-    let scaled = |i: usize, j: usize, x: f64| x / (m[i] * m[j]).sqrt();
-    let mut a = vec![vec![0.0; n]; n];
-    for i in 0..n {
-        a[i][i] += scaled(i, i, k[i]);
-        if i > 0 {
-            a[i - 1][i - 1] += scaled(i - 1, i - 1, k[i]);
-            a[i][i - 1] -= scaled(i, i - 1, k[i]);
-            a[i - 1][i] = a[i][i - 1];
-        }
-    }
     let (mut modes, mut q, mut v) = (Vec::new(), Vec::new(), Vec::new());
     let (q0, v0) = (model.initial_storey_displacement_m(), model.initial_storey_velocity_m_per_s());
-    for (omega2, vector) in eigen(a) {
-        let shape: Vec<f64> = vector.iter().zip(m).map(|(x, m)| x / m.sqrt()).collect();
+    for (omega, shape) in modes_of(m, k) {
         let l: f64 = shape.iter().zip(m).map(|(phi, m)| phi * m).sum();
-        let omega = omega2.sqrt();
         let damping_ratio = match &frame.damping {
             Damping::Ratio(ratio) => *ratio,
             Damping::Dampers(c) => c[0] / (2.0 * m[0] * omega),

@@ -6,7 +6,7 @@
 
 mod common;
 
-use common::eigen::eigen;
+use common::eigen::modes_of;
 use common::in_plane::{cases, model as model_of_case, motion as motion_of_case};
 use slipstick::check::check;
 use slipstick::model::{
@@ -20,23 +20,6 @@ use slipstick::solver::exact;
 
 /// Largest difference of a figure over its size: that of rounding.
 const AGREED: f64 = 1e-10;
-
-/// The modes of a shear frame on a fixed base, `ω` and the shape of unit modal mass.
-fn modes_of(m: &[f64], k: &[f64]) -> Vec<(f64, Vec<f64>)> {
-    let n = m.len();
-    let scaled = |i: usize, j: usize, x: f64| x / (m[i] * m[j]).sqrt();
-    let mut a = vec![vec![0.0; n]; n];
-    for i in 0..n {
-        a[i][i] += scaled(i, i, k[i]);
-        if i > 0 {
-            a[i - 1][i - 1] += scaled(i - 1, i - 1, k[i]);
-            a[i][i - 1] -= scaled(i, i - 1, k[i]);
-            a[i - 1][i] = a[i][i - 1];
-        }
-    }
-    let shape = |vector: Vec<f64>| vector.iter().zip(m).map(|(x, m)| x / m.sqrt()).collect();
-    eigen(a).into_iter().map(|(omega2, vector)| (omega2.sqrt(), shape(vector))).collect()
-}
 
 /// A structure of such modes; along x alone those that take part there.
 fn structure(mass_kg: f64, in_plane: Vec<ModeInPlane>, points: Vec<StructurePoint>) -> Structure {

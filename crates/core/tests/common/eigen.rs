@@ -29,3 +29,20 @@ pub fn eigen(mut a: Vec<Vec<f64>>) -> Vec<(f64, Vec<f64>)> {
     all.sort_by(|x, y| x.0.total_cmp(&y.0));
     all
 }
+
+/// The modes of a shear frame on a fixed base, `ω` and the shape of unit modal mass.
+pub fn modes_of(m: &[f64], k: &[f64]) -> Vec<(f64, Vec<f64>)> {
+    let n = m.len();
+    let scaled = |i: usize, j: usize, x: f64| x / (m[i] * m[j]).sqrt();
+    let mut a = vec![vec![0.0; n]; n];
+    for i in 0..n {
+        a[i][i] += scaled(i, i, k[i]);
+        if i > 0 {
+            a[i - 1][i - 1] += scaled(i - 1, i - 1, k[i]);
+            a[i][i - 1] -= scaled(i, i - 1, k[i]);
+            a[i - 1][i] = a[i][i - 1];
+        }
+    }
+    let shape = |vector: Vec<f64>| vector.iter().zip(m).map(|(x, m)| x / m.sqrt()).collect();
+    eigen(a).into_iter().map(|(omega2, vector)| (omega2.sqrt(), shape(vector))).collect()
+}

@@ -35,7 +35,7 @@ fn root([x, y]: [f64; 2]) -> [f64; 2] {
 
 /// Factors of the modes' series by `r`: coefficient `k` of `r x` of all modes.
 #[inline(always)]
-pub(super) fn times(r: &Polynomial, list: &[f64], k: usize, sums: &mut [f64]) {
+fn times(r: &Polynomial, list: &[f64], k: usize, sums: &mut [f64]) {
     let modes = sums.len();
     sums.fill(0.0);
     for i in 0..=k {
@@ -58,7 +58,6 @@ impl Series {
     ) {
         self.begin(Kind::NearRest, state, loads, unit);
         let order = self.accuracy.order;
-        let modes = system.modes();
         let z = root(state.w);
         (self.root[0][0], self.root[1][0]) = (z[0], z[1]);
         let mut push = [[0.0; DEGREE + 4]; 2];
@@ -73,12 +72,7 @@ impl Series {
             self.find_slowing(system, k);
             let time = self.time[k];
             for axis in 0..2 {
-                let s = &self.s[axis];
-                let mut pressed = loads.normal[0] * s[k];
-                if loads.normal[1] != 0.0 && system.per_radius > 0.0 {
-                    pressed += loads.normal[1] * product(&self.time, s, k);
-                }
-                let pull = system.pull(self.shear[axis][k], s[k], self.w[axis][k], pressed);
+                let pull = self.pull_of(system, axis, k);
                 self.pull[axis][k] = pull;
                 let [table, rate] = loads.table[axis];
                 push[axis][k] = pull - (rate * time + if k == 0 { table } else { 0.0 });
@@ -98,19 +92,43 @@ impl Series {
                 self.root[axis][k + 1] = 0.5 * per * (turned[axis] - of_friction[axis]);
             }
             self.time[k + 1] = per * self.speed[k];
-            let next = (k + 1) * modes;
-            times(&self.speed, &self.rate, k, sums);
-            for (into, sum) in self.eta[next..next + modes].iter_mut().zip(&*sums) {
-                *into = per * sum;
-            }
-            times(&self.speed, &self.g, k, sums);
-            for (j, sum) in sums.iter().enumerate() {
-                let l = [system.participation[0][j], system.participation[1][j]];
-                self.rate[next + j] = -per * (sum + l[0] * block[0] + l[1] * block[1]);
-            }
+            self.integrate_modes(system, k, (per, block), sums);
         }
         self.degree = order;
         self.part = self.fitting_part(scales).min(1.0);
+    }
+
+    /// Coefficient `k` of `P` along an axis by powers of `τ`, in which `N` follows the time.
+    #[inline(always)]
+    pub(super) fn pull_of(&self, system: &System, axis: usize, k: usize) -> f64 {
+        let (s, normal) = (&self.s[axis], self.loads.normal);
+        let mut pressed = normal[0] * s[k];
+        if normal[1] != 0.0 && system.per_radius > 0.0 {
+            pressed += normal[1] * product(&self.time, s, k);
+        }
+        system.pull(self.shear[axis][k], s[k], self.w[axis][k], pressed)
+    }
+
+    /// Order `k + 1` of the modes by powers of `τ`: `η' = r η̇` and `η̇' = −r (g + Lᵀ b)`, of `r b`.
+    #[inline(always)]
+    pub(super) fn integrate_modes(
+        &mut self,
+        system: &System,
+        k: usize,
+        (per, block): (f64, [f64; 2]),
+        sums: &mut [f64],
+    ) {
+        let modes = system.modes();
+        let next = (k + 1) * modes;
+        times(&self.speed, &self.rate, k, sums);
+        for (into, sum) in self.eta[next..next + modes].iter_mut().zip(&*sums) {
+            *into = per * sum;
+        }
+        times(&self.speed, &self.g, k, sums);
+        for (j, sum) in sums.iter().enumerate() {
+            let l = [system.participation[0][j], system.participation[1][j]];
+            self.rate[next + j] = -per * (sum + l[0] * block[0] + l[1] * block[1]);
+        }
     }
 
     /// The part at which a time is reached, none where that is beyond its end.

@@ -7,7 +7,6 @@
 //! Nothing is singular at `w = 0`, which is `τ → ∞`. The root of `w`, by which one mass goes farther in a step, is of
 //! no use here: `C w` is no product with it.
 
-use super::near_rest::times;
 use super::series::{Kind, Series, product};
 use super::system::{Loads, State, System, norm};
 use super::terms::Scales;
@@ -25,7 +24,6 @@ impl Series {
     ) {
         self.begin(Kind::Turning, state, loads, unit);
         let order = self.accuracy.order;
-        let modes = system.modes();
         let speed = norm(state.w);
         self.speed[0] = speed;
         for axis in 0..2 {
@@ -41,13 +39,7 @@ impl Series {
             self.find_slowing(system, k);
             let time = self.time[k];
             for axis in 0..2 {
-                let s = &self.s[axis];
-                let mut pressed = loads.normal[0] * s[k];
-                if loads.normal[1] != 0.0 && system.per_radius > 0.0 {
-                    pressed += loads.normal[1] * product(&self.time, s, k);
-                }
-                self.pull[axis][k] =
-                    system.pull(self.shear[axis][k], s[k], self.w[axis][k], pressed);
+                self.pull[axis][k] = self.pull_of(system, axis, k);
                 self.friction[axis][k] = self.slowed(system, &self.direction[axis], k);
             }
             let force = [0, 1].map(|axis| self.pull[axis][k] - self.friction[axis][k]);
@@ -70,16 +62,7 @@ impl Series {
             self.speed[k + 1] = per * product(&self.speed, &growth, k);
             self.time[k + 1] = per * self.speed[k];
             let carried = block.each_ref().map(|block| product(&self.speed, block, k));
-            let next = (k + 1) * modes;
-            times(&self.speed, &self.rate, k, sums);
-            for (into, sum) in self.eta[next..next + modes].iter_mut().zip(&*sums) {
-                *into = per * sum;
-            }
-            times(&self.speed, &self.g, k, sums);
-            for (j, sum) in sums.iter().enumerate() {
-                let l = [system.participation[0][j], system.participation[1][j]];
-                self.rate[next + j] = -per * (sum + l[0] * carried[0] + l[1] * carried[1]);
-            }
+            self.integrate_modes(system, k, (per, carried), sums);
         }
         self.degree = order;
         self.part = self.fitting_part(scales).min(1.0);
