@@ -31,7 +31,7 @@ use crate::assessment::spectrum::{SpectrumRequest, SpectrumRun, run_spectrum};
 use crate::assessment::suite::{Recorded, Suite};
 use crate::assessment::{AssessmentError, refuse};
 use crate::error::{ChoiceError, MeasureError};
-use crate::input::{Analysis, Bound, FrictionBounds, Override, dimension_of};
+use crate::input::{Analysis, Bound, FrictionBounds, Input, Override, dimension_of};
 use crate::motion::intensity::LevelMeasure;
 use crate::notice::Notice;
 use crate::response::DemandColumn;
@@ -300,7 +300,11 @@ impl Request {
         engine: &Engine<'_>,
     ) -> Result<(Results, String), AssessmentError> {
         let mut varied = Vec::new();
-        for path in self.listed("paths") {
+        let mut paths = self.listed("paths");
+        if paths.is_empty() {
+            paths.extend(on.analysis.inputs().filter(moves).map(|input| input.path));
+        }
+        for path in paths {
             let unit = dimension_of(path)?.map_or("", Dimension::si_unit);
             let Some(value) = on.analysis.value(path) else {
                 let found = format!("{path:?}, of which the model says nothing");
@@ -499,4 +503,36 @@ fn limit(what: &str, text: &str, demand: &str) -> Result<f64, AssessmentError> {
         None => text.trim().parse().map_err(|_| refused("a number"))?,
     };
     if value.is_finite() && value > 0.0 { Ok(value) } else { Err(refused("a limit > 0")) }
+}
+/// Whether a value in use is one of slider, block or structure that moves what is built of it: a number other than
+/// 0, and no name, size for a ratio, or bound.
+fn moves(input: &Input<'_>) -> bool {
+    let of = |table: &&str| input.path.split('.').next() == Some(table);
+    let built =
+        ["slider", "block", "storey", "frame", "structure", "contents"].iter().any(|t| of(&t));
+    let beside = ["slider.gap", "slider.bounds.", "structure.mode.", "structure.point."];
+    let beside = beside.iter().any(|path| input.path.starts_with(path));
+    let size = [".width", ".height", ".floor"].iter().any(|end| input.path.ends_with(end));
+    built && !beside && !size && input.value.is_some_and(|value| value != 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_moves_the_demands_is_derived_where_no_key_is_named() {
+        let text = include_str!("../../../examples/frame-pendulum.toml");
+        let analysis = crate::input::parse("model.toml", text, &[]).unwrap();
+        let paths: Vec<&str> = analysis.inputs().filter(moves).map(|input| input.path).collect();
+        let first =
+            ["block.mass", "slider.static_friction", "slider.kinetic_friction", "slider.radius"];
+        assert_eq!(paths[..4], first);
+        assert!(paths.contains(&"frame.period") && paths.contains(&"storey.5.mass"), "{paths:?}");
+        let beside = |path: &&str| {
+            path.contains("bounds") || path.contains("height") || path.starts_with("motion")
+        };
+        assert!(!paths.iter().any(|path| beside(&path)), "{paths:?}");
+        assert!(!paths.contains(&"slider.gap"));
+    }
 }

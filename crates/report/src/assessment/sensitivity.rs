@@ -245,7 +245,7 @@ impl SensitivityReport<'_> {
             panels: vec![panel],
             shaded: Vec::new(),
         };
-        Some(Drawn { id, caption, svg: figure.to_svg() })
+        Some(Drawn::new(figure, caption))
     }
 
     fn json(&self) -> Vec<(&'static str, Json)> {

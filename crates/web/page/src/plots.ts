@@ -78,6 +78,9 @@ export class Chart {
   private shape = "";
   private named = "";
   private time = 0;
+  /** Whether it is on the screen, or nearly; what it is to show once it is. */
+  private seen = true;
+  private late: Content | undefined;
 
   constructor(
     private readonly clock: Clock,
@@ -88,6 +91,11 @@ export class Chart {
     clock.charts.push(this);
     this.element.append(h("header", {}, ...head, this.key), this.box, this.readout);
     new ResizeObserver(() => this.resize()).observe(this.box);
+    const look = ([entry]: IntersectionObserverEntry[]) => {
+      this.seen = entry?.isIntersecting ?? true;
+      if (this.seen && this.late) this.show(this.late);
+    };
+    new IntersectionObserver(look, { rootMargin: "200px" }).observe(this.element);
   }
 
   restyle(colours: Palette): void {
@@ -98,6 +106,10 @@ export class Chart {
 
   show(content: Content): void {
     this.content = content;
+    this.name(content);
+    // What nobody sees is drawn when somebody does.
+    this.late = this.seen || !this.plot ? undefined : content;
+    if (this.late) return;
     const { unit } = content;
     const scaled = (values: Float64Array) => {
       if (unit.in_si === 1) return values;
@@ -114,6 +126,10 @@ export class Chart {
       this.plot.setData(data, false);
       this.plot.setScale("x", this.range());
     }
+  }
+
+  /** Names its lines. */
+  private name(content: Content): void {
     const keys = [...content.lines, ...(content.overlays ?? [])];
     const named = JSON.stringify(keys.map(({ label, colour, dash }) => [label, colour, dash]));
     if (named === this.named) return;

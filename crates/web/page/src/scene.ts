@@ -437,7 +437,7 @@ export class Scene {
     c.lineTo(to - sign * 9, y - 5);
     c.lineTo(to - sign * 9, y + 5);
     c.fill();
-    this.label(c, "friction", (from + to) / 2, y - 8, "center", this.colours.slide);
+    this.label(c, "friction", from, y - 8, sign > 0 ? "left" : "right", this.colours.slide);
     this.part("Friction", "The force of friction on the block. It holds the block while it sticks, and acts against its motion while it slides. The arrow is longest where the force is largest in this motion.", Math.min(from, to), y - 20, Math.abs(to - from), 26);
   }
 
