@@ -32,7 +32,7 @@ const MOST_TOLD = 8;
 /** The width of what leaves the page, and the widest that it is shown. */
 const [PRINTED, WIDEST] = [860, 1200];
 
-/** A figure that knows the widest and the narrowest that it can be. */
+/** A drawing with its caption and what it can do. */
 export class FigureView {
   readonly element: HTMLElement;
   private readonly box = h("div", { class: "figure-plot" });
@@ -48,6 +48,8 @@ export class FigureView {
   /** The points that can be gone to by keyboard, and which of them it is at. */
   private stops: Hit[] = [];
   private at = -1;
+  /** Where the points of a series stand, known once they are asked for. */
+  private readonly known = new Map<SeriesData, ReturnType<typeof points>>();
 
   constructor(
     private figure: FigureData,
@@ -88,6 +90,7 @@ export class FigureView {
     this.was = this.options.dark();
     const { svg, placed } = paint(this.figure, width, this.was, this.zoom);
     this.placed = placed;
+    this.known.clear();
     const { title } = this.figure;
     const pick = this.options.word ? `, Enter takes one: ${this.options.word}` : "";
     for (const [name, value] of Object.entries({ role: "application", tabindex: "0", "aria-label": `${title}; arrow keys go from point to point${pick}` })) svg.setAttribute(name, value);
@@ -98,13 +101,19 @@ export class FigureView {
     fill(this.box, svg);
   }
 
+  private points(at: Placed, series: SeriesData): ReturnType<typeof points> {
+    const found = this.known.get(series) ?? points(at, series);
+    this.known.set(series, found);
+    return found;
+  }
+
   /** Points in the order of their places: those that are dots, else those of the first named line. */
   private goTo(): Hit[] {
     const of = (shape: (series: SeriesData, panel: number) => boolean) =>
       this.placed.flatMap((at, panel) =>
         at.panel.series.flatMap((series, i) =>
           shape(series, panel)
-            ? points(at, series).flatMap((point, k) => (point && inside(at, point) ? [{ panel, series: i, point: k, x: point[0], y: point[1] }] : []))
+            ? this.points(at, series).flatMap((point, k) => (point && inside(at, point) ? [{ panel, series: i, point: k, x: point[0], y: point[1] }] : []))
             : [],
         ).sort((a, b) => a.x - b.x || b.y - a.y),
       );
@@ -136,7 +145,7 @@ export class FigureView {
       if (series.shape === "band" || series.shape === "named") return;
       // A dot is meant before a line that it stands on.
       const further = series.shape === "dots" ? 0 : 4;
-      points(at, series).forEach((point, k) => {
+      this.points(at, series).forEach((point, k) => {
         const far = point && inside(at, point) ? Math.hypot(point[0] - a, point[1] - b) + further : Infinity;
         if (far < best) [best, found] = [far, { panel, series: i, point: k }];
       });

@@ -65,6 +65,9 @@ export function intervals(time: Float64Array, mode: Int8Array): [number, number]
   return found;
 }
 
+/** How long the values rest before a chart that is not on the screen is drawn, in ms. */
+const LATE_MS = 250;
+
 let sync: uPlot.SyncPubSub | undefined;
 
 export class Chart {
@@ -81,6 +84,7 @@ export class Chart {
   /** Whether it is on the screen, or nearly; what it is to show once it is. */
   private seen = true;
   private late: Content | undefined;
+  private timer: ReturnType<typeof setTimeout> | undefined;
 
   constructor(
     private readonly clock: Clock,
@@ -93,7 +97,7 @@ export class Chart {
     new ResizeObserver(() => this.resize()).observe(this.box);
     const look = ([entry]: IntersectionObserverEntry[]) => {
       this.seen = entry?.isIntersecting ?? true;
-      if (this.seen && this.late) this.show(this.late);
+      if (this.seen && this.late) this.draw(this.late);
     };
     new IntersectionObserver(look, { rootMargin: "200px" }).observe(this.element);
   }
@@ -107,9 +111,18 @@ export class Chart {
   show(content: Content): void {
     this.content = content;
     this.name(content);
-    // What nobody sees is drawn when somebody does.
-    this.late = this.seen || !this.plot ? undefined : content;
-    if (this.late) return;
+    clearTimeout(this.timer);
+    if (this.seen || !this.plot) {
+      this.draw(content);
+      return;
+    }
+    // What nobody sees is drawn when somebody does, or when the values rest.
+    this.late = content;
+    this.timer = setTimeout(() => this.draw(content), LATE_MS);
+  }
+
+  private draw(content: Content): void {
+    this.late = undefined;
     const { unit } = content;
     const scaled = (values: Float64Array) => {
       if (unit.in_si === 1) return values;

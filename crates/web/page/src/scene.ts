@@ -638,7 +638,7 @@ export class Loop {
     }
     if (right - left <= 0) [left, right] = [-1e-3, 1e-3];
     if (high - low <= 0) [low, high] = [-1, 1];
-    const edge = { left: 50, right: 14, top: 12, bottom: 36 };
+    const edge = { left: 56, right: 14, top: 12, bottom: 36 };
     const x = (v: number) => edge.left + ((v - left) / (right - left)) * (width - edge.left - edge.right);
     const y = (v: number) => height - edge.bottom - ((v - low) / (high - low)) * (height - edge.top - edge.bottom);
     this.map = { x, y };
