@@ -641,9 +641,9 @@ for (const [id, heading] of [["suite", /response histories/i], ["spectrum", /sli
       await page.locator(`#panel-${id} button.main`).click();
       await page.locator(`#panel-${id} .sheet`).waitFor({ timeout: 60000 });
       assert.match(await page.locator(`#panel-${id} .sheet h2`).innerText(), heading);
-      const image = page.locator(`#panel-${id} .sheet img`).first();
-      await image.waitFor();
-      assert.ok(await image.evaluate(async (image) => (await image.decode(), image.naturalWidth > 100)));
+      const drawn = page.locator(`#panel-${id} .sheet .figure-plot svg[role]`).first();
+      await drawn.waitFor();
+      assert.ok(await drawn.evaluate((svg) => svg.clientWidth > 100 && svg.querySelectorAll("path").length > 2));
       await page.screenshot({ path: join(shots, `tab-${id}.png`), fullPage: true });
     }));
 }
