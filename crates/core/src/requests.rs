@@ -302,7 +302,7 @@ impl Request {
         let mut varied = Vec::new();
         let mut paths = self.listed("paths");
         if paths.is_empty() {
-            paths.extend(on.analysis.inputs().filter(moves).map(|input| input.path));
+            paths = moving(on.analysis);
         }
         for path in paths {
             let unit = dimension_of(path)?.map_or("", Dimension::si_unit);
@@ -504,16 +504,23 @@ fn limit(what: &str, text: &str, demand: &str) -> Result<f64, AssessmentError> {
     };
     if value.is_finite() && value > 0.0 { Ok(value) } else { Err(refused("a limit > 0")) }
 }
-/// Whether a value in use is one of slider, block or structure that moves what is built of it: a number other than
-/// 0, and no name, size for a ratio, or bound.
-fn moves(input: &Input<'_>) -> bool {
-    let of = |table: &&str| input.path.split('.').next() == Some(table);
-    let built =
-        ["slider", "block", "storey", "frame", "structure", "contents"].iter().any(|t| of(&t));
-    let beside = ["slider.gap", "slider.bounds.", "structure.mode.", "structure.point."];
-    let beside = beside.iter().any(|path| input.path.starts_with(path));
-    let size = [".width", ".height", ".floor"].iter().any(|end| input.path.ends_with(end));
-    built && !beside && !size && input.value.is_some_and(|value| value != 0.0)
+/// Keys of slider, block and structure that move what is built of them, each by itself: numbers other than 0, and no
+/// names, sizes for ratios, or bounds.
+fn moving(analysis: &Analysis) -> Vec<&str> {
+    const BUILT: [&str; 6] = ["slider", "block", "storey", "frame", "structure", "contents"];
+    const BESIDE: [&str; 4] =
+        ["slider.gap", "slider.bounds.", "structure.mode.", "structure.point."];
+    const SIZES: [&str; 3] = [".width", ".height", ".floor"];
+    // The ratios of many storeys are one value.
+    let several = analysis.model.storeys() > 1;
+    let moves = |Input { path, value, .. }: &Input<'_>| {
+        BUILT.contains(&path.split('.').next().unwrap_or_default())
+            && !BESIDE.iter().any(|beside| path.starts_with(beside))
+            && !SIZES.iter().any(|size| path.ends_with(size))
+            && !(several && path.starts_with("storey.") && path.ends_with(".damping_ratio"))
+            && value.is_some_and(|value| value != 0.0)
+    };
+    analysis.inputs().filter(moves).map(|input| input.path).collect()
 }
 
 #[cfg(test)]
@@ -524,13 +531,14 @@ mod tests {
     fn what_moves_the_demands_is_derived_where_no_key_is_named() {
         let text = include_str!("../../../examples/frame-pendulum.toml");
         let analysis = crate::input::parse("model.toml", text, &[]).unwrap();
-        let paths: Vec<&str> = analysis.inputs().filter(moves).map(|input| input.path).collect();
+        let paths = moving(&analysis);
         let first =
             ["block.mass", "slider.static_friction", "slider.kinetic_friction", "slider.radius"];
         assert_eq!(paths[..4], first);
         assert!(paths.contains(&"frame.period") && paths.contains(&"storey.5.mass"), "{paths:?}");
         let beside = |path: &&str| {
-            path.contains("bounds") || path.contains("height") || path.starts_with("motion")
+            ["bounds", "height", "damping"].iter().any(|part| path.contains(part))
+                || path.starts_with("motion")
         };
         assert!(!paths.iter().any(|path| beside(&path)), "{paths:?}");
         assert!(!paths.contains(&"slider.gap"));

@@ -43,11 +43,20 @@ function decades(low: number, high: number, about: number): Tick[] {
   return found.map((tick) => ({ ...tick, text: kept && !kept.test(tick.text) ? "" : tick.text }));
 }
 
+/** Round values; a single one gives no scale, so there are more until there are three. */
+function scale({ min, max }: AxisData, about: number): Tick[] {
+  for (let more = 0; more < 4; more++) {
+    const found = round(min, max, about + more);
+    if (found.length >= 3) return found;
+  }
+  return round(min, max, about);
+}
+
 /** Round values on an axis, about so many with labels. */
 export function ticks(axis: AxisData, about: number): Tick[] {
   if (axis.names.length > 0) return axis.names.map((text, i) => ({ value: i + 1, text })).filter(({ value }) => value >= axis.min && value <= axis.max);
-  if (!axis.log) return round(axis.min, axis.max, about);
+  if (!axis.log) return scale(axis, about);
   const found = decades(axis.min, axis.max, about);
   // Of a part of a decade there are none to speak of.
-  return found.filter(({ text }) => text).length >= 2 ? found : round(axis.min, axis.max, about);
+  return found.filter(({ text }) => text).length >= 2 ? found : scale(axis, about);
 }

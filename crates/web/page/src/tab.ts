@@ -124,7 +124,7 @@ export function sheetElement(sheet: Sheet, dark: () => boolean): { element: HTML
   const views: FigureView[] = [];
   const table = ({ heading, rows }: Sheet["tables"][number]) => {
     const [head = [], ...body] = rows;
-    const cell = (text: string, i: number) => h("td", { class: i > 0 ? "number" : "" }, text);
+    const cell = (text: string, i: number) => h("td", { class: i > 0 ? "number" : "" }, text.replace(/^-(?=\d)/, "−"));
     return [
       h("h3", {}, heading),
       h(
