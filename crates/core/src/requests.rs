@@ -540,7 +540,7 @@ mod tests {
             ["bounds", "height", "damping"].iter().any(|part| path.contains(part))
                 || path.starts_with("motion")
         };
-        assert!(!paths.iter().any(|path| beside(&path)), "{paths:?}");
+        assert!(!paths.iter().any(beside), "{paths:?}");
         assert!(!paths.contains(&"slider.gap"));
     }
 }
