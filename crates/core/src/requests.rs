@@ -514,11 +514,11 @@ fn moving(analysis: &Analysis) -> Vec<&str> {
     // The ratios of many storeys are one value.
     let several = analysis.model.storeys() > 1;
     let moves = |Input { path, value, .. }: &Input<'_>| {
-        BUILT.contains(&path.split('.').next().unwrap_or_default())
-            && !BESIDE.iter().any(|beside| path.starts_with(beside))
-            && !SIZES.iter().any(|size| path.ends_with(size))
-            && !(several && path.starts_with("storey.") && path.ends_with(".damping_ratio"))
-            && value.is_some_and(|value| value != 0.0)
+        let beside = BESIDE.iter().any(|beside| path.starts_with(beside))
+            || SIZES.iter().any(|size| path.ends_with(size))
+            || several && path.starts_with("storey.") && path.ends_with(".damping_ratio");
+        let built = BUILT.contains(&path.split('.').next().unwrap_or_default());
+        built && !beside && value.is_some_and(|value| value != 0.0)
     };
     analysis.inputs().filter(moves).map(|input| input.path).collect()
 }
