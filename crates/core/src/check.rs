@@ -34,6 +34,7 @@ mod rate;
 mod stored;
 mod structure;
 mod sweep;
+mod work;
 
 use core::fmt;
 

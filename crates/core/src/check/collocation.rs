@@ -159,3 +159,27 @@ impl Rule {
         if node.1 <= found.1 { node } else { found }
     }
 }
+
+/// Most Legendre terms of a velocity.
+pub(super) const MOST_TERMS: usize = 9;
+
+/// How many Legendre terms a velocity has over so many radians: what is left out is below 1e-8 of it, its
+/// square below rounding.
+pub(super) fn terms(turn: f64) -> usize {
+    let (mut terms, mut size) = (2, 0.5 * turn);
+    while terms < MOST_TERMS && size > 1e-8 {
+        size *= 0.5 * turn / (2.0 * terms as f64 - 1.0);
+        terms += 1;
+    }
+    terms
+}
+
+/// Legendre's polynomial `P_l(z)`.
+pub(super) fn legendre(l: usize, z: f64) -> f64 {
+    let (mut p, mut before) = (1.0, 0.0);
+    for k in 1..=l {
+        let k = k as f64;
+        (p, before) = (((2.0 * k - 1.0) * z * p - (k - 1.0) * before) / k, p);
+    }
+    p
+}

@@ -1,8 +1,18 @@
 //! The balance of energy in the frame of the table.
 
 use super::EnergyHistory;
-use super::lane::LANES;
-use super::path::Spent;
+use super::lane::{Eight, LANES};
+
+/// What is told of the energies of an interval.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Spent {
+    pub(super) work: Eight,
+    pub(super) size: Eight,
+    pub(super) damping: Eight,
+    pub(super) friction: Eight,
+    /// What the rounding of `N` makes of them.
+    pub(super) blur: Eight,
+}
 
 /// Energies at knots, and what the intervals that begin there spend, in J.
 #[derive(Clone, Debug, Default, PartialEq)]

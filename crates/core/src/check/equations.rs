@@ -16,8 +16,8 @@ use super::group::Group;
 use super::knots::LaneJudge;
 use super::lane::{Eight, all, both, inlined, larger, smaller};
 use super::outputs::{FRICTION, Outputs};
-use super::path::Work;
 use super::structure::StoreyDamping;
+use super::work::Work;
 
 /// Loads and springs at a part of a step.
 #[derive(Clone, Copy)]

@@ -16,6 +16,7 @@ use crate::response::{History, Mode};
 pub(super) const BATCH: usize = 64;
 
 /// The worst of all lanes so far.
+#[derive(Default)]
 pub(super) struct Worst {
     pub(super) displacement: [Eight; 2],
     pub(super) velocity: [Eight; 2],
@@ -27,19 +28,6 @@ pub(super) struct Worst {
     pub(super) drift: [Eight; 2],
     /// 0, or not a number where something stored is none.
     pub(super) broken: Eight,
-}
-
-impl Worst {
-    pub(super) const NONE: Self = Self {
-        displacement: [Eight::ZERO; 2],
-        velocity: [Eight::ZERO; 2],
-        force: [Eight::ZERO; 2],
-        table: Eight::ZERO,
-        excess: Eight::ZERO,
-        sliding: Eight::ZERO,
-        drift: [Eight::ZERO; 2],
-        broken: Eight::ZERO,
-    };
 }
 
 /// What the lanes need of a model and its history.
@@ -77,6 +65,29 @@ pub(super) fn lists_of(h: &History, n: usize, degree: usize) -> ([&[f64]; 2], [u
         i => {
             let lists = [&h.contents_displacement_m[..], &h.contents_velocity_m_per_s];
             (lists, [h.interfaces - 1, i - 1 - n])
+        }
+    }
+}
+
+/// Accelerations of a degree's body and of what it moves over, whose difference is `ẍ`, likewise.
+#[inline(always)]
+pub(super) fn rates_of<'h>(
+    h: &'h History,
+    structure: &Structure,
+    n: usize,
+    degree: usize,
+) -> [(&'h [f64], [usize; 2]); 2] {
+    let floor = |floor: usize| match floor {
+        0 => (&h.block_acceleration_m_per_s2[..], [1, 0]),
+        i => (&h.storey_acceleration_m_per_s2[..], [n, i - 1]),
+    };
+    match degree {
+        0 => [floor(0), (&h.table_acceleration_m_per_s2, [1, 0])],
+        i if i <= n => [floor(i), floor(0)],
+        i => {
+            let (e, contents) = (i - 1 - n, &structure.contents);
+            let own = &h.contents_acceleration_m_per_s2[..];
+            [(own, [contents.len(), e]), floor(contents[e].floor)]
         }
     }
 }

@@ -14,6 +14,16 @@ const PASSED: f64 = 1e-10;
 /// A surface is at its end from this part of its travel on: bounces at a stop leave it by little more.
 const AT_END: f64 = 1.0 - 4.0 * f64::EPSILON;
 
+/// Stands for no bound, so that it can be multiplied by 0.
+pub(super) const UNBOUNDED: f64 = 1e200;
+/// No bound either way.
+pub(super) const BOUNDLESS: [f64; 2] = [-UNBOUNDED, UNBOUNDED];
+
+/// Some numbers where a stop is leaned against, others where it is not.
+pub(super) fn either(leans: [bool; 2], those: [f64; 2], others: [f64; 2]) -> [f64; 2] {
+    [0, 1].map(|i| if leans[i] { those[i] } else { others[i] })
+}
+
 /// What friction is asked for and between which forces it holds, in N.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StickDemand {

@@ -6,9 +6,9 @@ use super::ClosestCall;
 use super::collocation::Rule;
 use super::demands::{self, Comparison, Own, Rounding};
 use super::energy::Books;
-use super::intervals::Watched;
 use super::judge::{Directions, Given, Judge, Run, Sizes};
 use super::knots::{Acting, Knots, LaneJudge, Worst, lists_of};
+use super::near::Watched;
 use super::outputs::{BLOCK, VELOCITY};
 use super::structure::{Phase, Structure, excess, larger};
 use crate::error::Stopped;
@@ -136,7 +136,7 @@ impl<'a> Directions for Judge<'a, Line<'a>> {
         // At the start and at the end both sides of a jump last.
         let passed = |k: &usize| h.time_s[k + 1] == h.time_s[*k] && h.time_s[k - 1] == h.time_s[*k];
         let passed: Vec<usize> = (1..h.len().saturating_sub(1)).filter(passed).collect();
-        let mut worst = Worst::NONE;
+        let mut worst = Worst::default();
         let degrees = [self.axes.structure.degrees(), h.storeys];
         let mut knots = Knots::new(h.len(), self.outputs.len(), degrees);
         let mut pulse = core::mem::replace(&mut self.pulse, Pulse::new(UNWATCHED));

@@ -5,57 +5,34 @@ use fearless_simd::{dispatch, f64x8};
 
 use super::collocation::{NODES, POINTS};
 use super::equations::state_of;
-use super::group::{Group, Step};
+use super::group::Group;
 use super::knots::LaneJudge;
-use super::lane::{Eight, Places, all, both, larger, smaller};
+use super::lane::{Eight, Places, all, both, smaller};
+use super::near::Points;
 use super::outputs::FRICTION;
-use super::path::{Pass, Work};
+use super::work::{Pass, Work};
 use crate::error::Stopped;
 
-/// What the points of intervals say of a margin or a speed, one after another.
-#[derive(Clone, Default)]
-pub(super) struct Extremes {
-    first: Eight,
-    least: Eight,
-    most: Eight,
-    last: Eight,
-    /// 1 where it has risen, and fallen.
-    rises: Eight,
-    falls: Eight,
-}
-
-/// What is told of the decisions of an interface in an interval: its margin in stick, its speed in slip.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Watch<T> {
-    /// At both ends.
-    pub(super) ends: [T; 2],
-    /// The least at any point, and what it cannot fall below in between where it is not monotone.
-    pub(super) least: T,
-    pub(super) low: T,
-    /// Largest speed.
-    pub(super) fastest: T,
-}
-
-/// The points of a step: `T` or the acceleration of contents in stick, the speed in the direction claimed
-/// in slip, interface by interface; then `s` and `ṡ`.
-pub(super) struct Points {
-    pub(super) knot: usize,
-    pub(super) step: Step,
-    pub(super) values: Vec<[f64; POINTS]>,
-}
-
-impl Watch<Eight> {
-    pub(super) fn lane(&self, lane: usize) -> Watch<f64> {
-        Watch {
-            ends: [self.ends[0].0[lane], self.ends[1].0[lane]],
-            least: self.least.0[lane],
-            low: self.low.0[lane],
-            fastest: self.fastest.0[lane],
-        }
-    }
-}
-
 impl LaneJudge<'_> {
+    /// The margin of an interface that sticks, which is asked for from a least to a largest part of `N`.
+    #[inline(always)]
+    pub(super) fn margin<S: Simd>(
+        &self,
+        simd: S,
+        i: usize,
+        group: &Group,
+        [least, most]: [f64x8<S>; 2],
+    ) -> f64x8<S> {
+        let [hold, scale] = match i.checked_sub(1).map(|e| &self.structure.contents[e]) {
+            None => [both!(|k| group.hold[k].load(simd)), both!(|k| group.scale[k].load(simd))],
+            Some(contents) => {
+                let fixed = contents.static_friction / self.structure.total_kg;
+                [[all(simd, -fixed), all(simd, fixed)], [all(simd, 1.0 / fixed); 2]]
+            }
+        };
+        smaller((hold[1] - most) * scale[1], (least - hold[0]) * scale[0])
+    }
+
     /// Margins of what sticks and speeds of what slides at the points of a step.
     #[inline(always)]
     pub(super) fn watch<S: Simd>(
@@ -66,7 +43,6 @@ impl LaneJudge<'_> {
         first: bool,
         work: &mut Work,
     ) {
-        let (s, d) = (self.structure, self.structure.degrees());
         let asks = group.asks();
         let zero = all(simd, 0.0);
         for point in 0..POINTS {
@@ -79,42 +55,21 @@ impl LaneJudge<'_> {
                 self.ask(simd, n, group, end, work);
             }
             let part = self.rule.points[point];
-            let Work { input, path, bodies, ends, seen, .. } = &mut *work;
             let [from, to] = both!(|end| group.normal[end].load(simd));
             let normal = from + (to - from) * all(simd, part);
-            for (i, seen) in seen.iter_mut().enumerate() {
-                let at = s.degree_of(i);
-                let (asked, speed) = if is_node {
-                    let asked = path[(NODES + 2) * d + i * NODES + point - 1];
-                    (asked, path[(point - 1) * d + at])
-                } else {
-                    let asked = if i == 0 { ends[end][FRICTION] } else { bodies[at] };
-                    (asked, state_of(input, path, end, d + at, d))
-                };
-                let (stuck, sign) = match i.checked_sub(1) {
-                    None => (group.stuck, group.sign),
-                    Some(e) => (group.carried[e].stuck, group.carried[e].sign),
-                };
+            for i in 0..work.seen.len() {
+                let [asked, speed] = self.at_point(i, point, work);
+                let [stuck, sign] = group.interface(i);
                 let mut value = sign.load(simd) * speed.load(simd);
                 if stuck.0 != Eight::ZERO.0 {
                     let per_n = asked.load(simd) / normal;
-                    let margin = match i.checked_sub(1) {
-                        None => {
-                            let [low, high] = both!(|i| group.hold[i].load(simd));
-                            let below = (per_n - low) * group.scale[0].load(simd);
-                            smaller((high - per_n) * group.scale[1].load(simd), below)
-                        }
-                        Some(e) => {
-                            let fixed = s.contents[e].static_friction / s.total_kg;
-                            all(simd, 1.0) - per_n.abs() * all(simd, 1.0 / fixed)
-                        }
-                    };
+                    let margin = self.margin(simd, i, group, [per_n; 2]);
                     value = stuck.load(simd).simd_gt(zero).select(margin, value);
                 }
                 if point == 0 {
-                    seen.start(value);
+                    work.seen[i].start(value);
                 } else {
-                    seen.take(simd, value);
+                    work.seen[i].take(simd, value);
                 }
             }
         }
@@ -151,32 +106,24 @@ impl LaneJudge<'_> {
             let interfaces = 1 + self.structure.contents.len();
             let blank = [Eight::ZERO; POINTS];
             let mut rows = vec![blank; interfaces + 2];
-            for end in 0..2 {
-                let point = end * (POINTS - 1);
-                self.ask(simd, n, group, end, pass.work);
-                for (i, row) in rows[..interfaces].iter_mut().enumerate() {
-                    let Work { input, path, bodies, .. } = &*pass.work;
-                    let asked = if i == 0 {
-                        pass.work.ends[end][FRICTION]
-                    } else {
-                        bodies[self.structure.degree_of(i)]
-                    };
-                    let speed = state_of(input, path, end, d + self.structure.degree_of(i), d);
-                    row[point] = self.of_interface(simd, group, i, asked, speed);
+            for point in 0..POINTS {
+                let node = point.checked_sub(1).filter(|node| *node < NODES);
+                let end = usize::from(point > 0);
+                if node.is_none() {
+                    self.ask(simd, n, group, end, pass.work);
                 }
-                let Work { input, path, .. } = &*pass.work;
-                rows[interfaces][point] = state_of(input, path, end, 0, d);
-                rows[interfaces + 1][point] = state_of(input, path, end, d, d);
-            }
-            for node in 0..NODES {
-                let Work { path, trace, .. } = &*pass.work;
                 for (i, row) in rows[..interfaces].iter_mut().enumerate() {
-                    let asked = path[(NODES + 2) * d + i * NODES + node];
-                    let speed = path[node * d + self.structure.degree_of(i)];
-                    row[1 + node] = self.of_interface(simd, group, i, asked, speed);
+                    let [asked, speed] = self.at_point(i, point, pass.work);
+                    let [stuck, sign] = group.interface(i);
+                    let speed = speed.load(simd) * sign.load(simd);
+                    let sticks = stuck.load(simd).simd_gt(all(simd, 0.0));
+                    row[point].store(sticks.select(asked.load(simd), speed));
                 }
-                rows[interfaces][1 + node] = trace[node * d];
-                rows[interfaces + 1][1 + node] = path[node * d];
+                let Work { input, path, trace, .. } = &*pass.work;
+                [rows[interfaces][point], rows[interfaces + 1][point]] = match node {
+                    Some(node) => [trace[node * d], path[node * d]],
+                    None => both!(|i| state_of(input, path, end, i * d, d)),
+                };
             }
             for lane in 0..group.count {
                 let step = group.steps[lane];
@@ -189,58 +136,16 @@ impl LaneJudge<'_> {
         Ok(())
     }
 
-    /// What is asked of an interface in stick, its speed in the direction claimed in slip.
+    /// What is asked of an interface at a point of a step of which the end was asked, and its speed.
     #[inline(always)]
-    fn of_interface<S: Simd>(
-        &self,
-        simd: S,
-        group: &Group,
-        i: usize,
-        asked: Eight,
-        speed: Eight,
-    ) -> Eight {
-        let (stuck, sign) = match i.checked_sub(1) {
-            None => (group.stuck, group.sign),
-            Some(e) => (group.carried[e].stuck, group.carried[e].sign),
-        };
-        let speed = speed.load(simd) * sign.load(simd);
-        let mut value = Eight::ZERO;
-        let stuck = stuck.load(simd).simd_gt(all(simd, 0.0));
-        value.store(stuck.select(asked.load(simd), speed));
-        value
-    }
-}
-
-impl Extremes {
-    #[inline(always)]
-    fn start<S: Simd>(&mut self, first: f64x8<S>) {
-        for place in [&mut self.first, &mut self.least, &mut self.most, &mut self.last] {
-            place.store(first);
+    fn at_point(&self, i: usize, point: usize, work: &Work) -> [Eight; 2] {
+        let (d, at) = (self.structure.degrees(), self.structure.degree_of(i));
+        let Work { input, path, bodies, ends, .. } = work;
+        if let Some(node) = point.checked_sub(1).filter(|node| *node < NODES) {
+            return [path[(NODES + 2) * d + i * NODES + node], path[node * d + at]];
         }
-        (self.rises, self.falls) = (Eight::ZERO, Eight::ZERO);
-    }
-
-    #[inline(always)]
-    fn take<S: Simd>(&mut self, simd: S, value: f64x8<S>) {
-        let (one, last) = (all(simd, 1.0), self.last.load(simd));
-        self.least.store(smaller(self.least.load(simd), value));
-        self.most.store(larger(self.most.load(simd), value));
-        self.rises.store(value.simd_gt(last).select(one, self.rises.load(simd)));
-        self.falls.store(value.simd_lt(last).select(one, self.falls.load(simd)));
-        self.last.store(value);
-    }
-
-    /// The least, and what it cannot fall below in between.
-    #[inline(always)]
-    pub(super) fn tell<S: Simd>(&self, simd: S, told: &mut Watch<Eight>) {
-        let least = self.least.load(simd);
-        let range = self.most.load(simd) - least;
-        let flat = range.simd_le(all(simd, 4e-12));
-        // Between two points the polynomial falls below both by less than a tenth of its range.
-        let low = (self.rises.load(simd) * self.falls.load(simd))
-            .simd_gt(all(simd, 0.0))
-            .select(least - range * all(simd, 0.1), all(simd, f64::INFINITY));
-        told.low.store(flat.select(least, low));
-        (told.least, told.ends) = (self.least, [self.first, self.last]);
+        let end = usize::from(point > 0);
+        let asked = if i == 0 { ends[end][FRICTION] } else { bodies[at] };
+        [asked, state_of(input, path, end, d + at, d)]
     }
 }

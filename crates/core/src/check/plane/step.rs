@@ -12,14 +12,16 @@
 //! that ρ, the defect at the end of a step like `ρ^−16`: less than `h |F| (c_6/|F|)²`; the more
 //! so where friction is stiff.
 
-use super::super::collocation::{NODES, POINTS, Rule};
-use super::super::sweep::legendre;
+use super::super::collocation::{NODES, POINTS, Rule, legendre};
 use super::frame::{
     Forces, Loads, Pair, PlaneFrame, between, cross, dot, norm, table, times, unit,
 };
 
 /// A velocity below this part of the largest in a step has no direction.
 const ROUNDING: f64 = 1e-9;
+/// Largest last Legendre coefficient over the largest acceleration with which the polynomials are as good as the
+/// motion.
+pub(super) const FINE: f64 = 1e-10;
 /// Most passes of the iteration.
 const MOST_PASSES: usize = 40;
 /// Unknowns of the block at the nodes.
