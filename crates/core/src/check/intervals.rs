@@ -7,7 +7,7 @@ use super::group::{Course, Group, Key};
 use super::judge::{Judge, Run, STILL};
 use super::knots::{LaneJudge, Worst};
 use super::lane::LANES;
-use super::law::UNBOUNDED;
+use super::law::{StickDemand, UNBOUNDED};
 use super::line::Line;
 use super::maps::{Maps, Spread};
 use super::near::{Watch, Watched};
@@ -227,7 +227,7 @@ impl<'a> Judge<'a, Line<'a>> {
                 kind.spread.forget();
             }
         }
-        let ways = [Direction::Positive, Direction::Negative];
+        let ways = Direction::BOTH;
         let drops = (0..self.h.interfaces).map(|i| ways.iter().any(|way| self.drops(i, *way)));
         let drops: Vec<bool> = drops.collect();
         let speeds = fastest.iter().zip(&drops).map(|(fastest, drops)| match drops {
@@ -258,10 +258,7 @@ impl<'a> Judge<'a, Line<'a>> {
             return;
         }
         let [low, high] = self.law.hold(&[]).map(|per_n| per_n * self.largest.0);
-        let margin = |demand: f64| {
-            let bound = if demand > 0.0 { high } else { -low };
-            (bound > 0.0).then(|| 1.0 - demand.abs() / bound)
-        };
+        let margin = |demand: f64| StickDemand { demand, low, high }.margin();
         let sticks = |run: &&Run| {
             let contact = h.contact.get(run.from);
             h.modes(run.from)[0] == Mode::Stick && contact.is_none_or(|c| *c == Contact::Free)

@@ -326,7 +326,7 @@ where
     /// Ends a phase of an interface at a knot: its near decisions are known.
     fn close(&mut self, i: usize, mode: Mode, to: usize) {
         let call = match mode {
-            Mode::Stick => self.dips[i].least(i),
+            Mode::Stick => self.dips[i].least(DecisionKind::Stick, i),
             Mode::Slip(direction) => self.slipped(i, direction, to),
         };
         if let Some(call) = call {
@@ -384,7 +384,7 @@ where
     fn near_misses(&self) -> Vec<ClosestCall> {
         let h = self.h;
         let mut calls = Vec::new();
-        for side in [Direction::Positive, Direction::Negative] {
+        for side in Direction::BOTH {
             let Some(wall) = self.law.wall(side) else { continue };
             let gap_m = wall.abs();
             // Where the block came to a halt on its way there.

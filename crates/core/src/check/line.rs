@@ -2,7 +2,6 @@
 
 use fearless_simd::{Level, dispatch};
 
-use super::ClosestCall;
 use super::collocation::Rule;
 use super::demands::{self, Comparison, Own, Rounding};
 use super::energy::Books;
@@ -11,6 +10,7 @@ use super::knots::{Acting, Knots, LaneJudge, Worst, lists_of};
 use super::near::Watched;
 use super::outputs::{BLOCK, VELOCITY};
 use super::structure::{Phase, Structure, excess, larger};
+use super::{ClosestCall, DecisionKind};
 use crate::error::Stopped;
 use crate::progress::{Pulse, UNWATCHED};
 use crate::response::Mode;
@@ -268,7 +268,7 @@ impl<'a> Directions for Judge<'a, Line<'a>> {
             let fastest = knots.fold(0.0, |most, k| self.speed_at(k, i).abs().max(most));
             self.dips[i].see(fastest);
         }
-        self.dips[i].least_of_peak(i)
+        self.dips[i].least(DecisionKind::Slip, i)
     }
 
     fn begins(&mut self, i: usize, k: usize) {
