@@ -3,13 +3,13 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{dispatch, f64x8};
 
-use super::collocation::{NODES, POINTS};
+use super::super::collocation::{NODES, POINTS};
+use super::super::lane::{Eight, Places, all, both, smaller};
+use super::super::outputs::FRICTION;
 use super::equations::state_of;
 use super::group::Group;
 use super::knots::LaneJudge;
-use super::lane::{Eight, Places, all, both, smaller};
-use super::near::Points;
-use super::outputs::FRICTION;
+use super::watch::Points;
 use super::work::{Pass, Work};
 use crate::error::Stopped;
 

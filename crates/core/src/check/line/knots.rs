@@ -3,11 +3,12 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, f64x8};
 
-use super::collocation::Rule;
-use super::lane::{Eight, LANES, Places, add_chain, all, chain_form, inlined, keep, larger};
-use super::law::Law;
-use super::outputs::Outputs;
-use super::structure::{StoreyDamping, Structure};
+use super::super::collocation::Rule;
+use super::super::judge::Figures;
+use super::super::lane::{Eight, LANES, Places, add_chain, all, chain_form, inlined, keep, larger};
+use super::super::law::Law;
+use super::super::outputs::Outputs;
+use super::super::structure::{StoreyDamping, Structure, larger as greatest};
 use crate::error::Stopped;
 use crate::progress::Pulse;
 use crate::response::{History, Mode};
@@ -28,6 +29,21 @@ pub(super) struct Worst {
     pub(super) drift: [Eight; 2],
     /// 0, or not a number where something stored is none.
     pub(super) broken: Eight,
+}
+
+impl Worst {
+    /// Adds it to the figures.
+    pub(super) fn enter(&self, figures: &mut Figures) {
+        for (figure, lanes) in [
+            (&mut figures.displacement, &self.displacement),
+            (&mut figures.velocity, &self.velocity),
+            (&mut figures.force, &self.force),
+        ] {
+            *figure = [0, 1].map(|i| greatest(figure[i], lanes[i].largest()));
+        }
+        figures.table[0] = greatest(figures.table[0], self.table.largest());
+        figures.excess = greatest(figures.excess, self.excess.largest());
+    }
 }
 
 /// What the lanes need of a model and its history.

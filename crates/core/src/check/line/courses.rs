@@ -1,11 +1,11 @@
 //! What is in force in an interval.
 
-use super::ground::Load;
+use super::super::ground::Load;
+use super::super::judge::{Judge, STILL};
+use super::super::law::{BOUNDLESS, Sliding, either};
+use super::super::structure::{Phase, larger};
+use super::Line;
 use super::group::{Course, Feed, Key};
-use super::judge::{Judge, STILL};
-use super::law::{BOUNDLESS, Sliding, either};
-use super::line::Line;
-use super::structure::{Phase, larger};
 use crate::response::{Contact, Mode};
 
 impl<'a> Judge<'a, Line<'a>> {

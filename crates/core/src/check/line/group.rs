@@ -13,11 +13,11 @@
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
-use super::collocation::MAX_TURN;
-use super::ground::{Ground, Load, between};
+use super::super::collocation::MAX_TURN;
+use super::super::ground::{Ground, Load, between};
+use super::super::lane::{Eight, LANES, all};
+use super::super::law::{BOUNDLESS, Push, StickDemand, UNBOUNDED};
 use super::knots::LaneJudge;
-use super::lane::{Eight, LANES, all};
-use super::law::{BOUNDLESS, Push, StickDemand, UNBOUNDED};
 use crate::response::Mode;
 
 /// The way through an interval in equal steps under linear loads, piece after piece.

@@ -3,15 +3,14 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{dispatch, f64x8};
 
-use super::collocation::{MOST_PASSES, NODES, ROUNDING};
-use super::energy::Spent;
-use super::ground::Ground;
+use super::super::collocation::{MOST_PASSES, NODES, ROUNDING};
+use super::super::ground::Ground;
+use super::super::lane::{Eight, LANES, Places, all, both, inlined, keep, larger};
+use super::super::outputs::Outputs;
 use super::group::Group;
 use super::knots::{LaneJudge, lists_of, rates_of};
-use super::lane::{Eight, LANES, Places, all, both, inlined, keep, larger};
 use super::maps::{Maps, Spread};
-use super::outputs::Outputs;
-use super::work::{Pass, Work};
+use super::work::{Pass, Spent, Work};
 use crate::error::Stopped;
 
 impl LaneJudge<'_> {
@@ -66,7 +65,7 @@ impl LaneJudge<'_> {
             watch[i].fastest = fastest[at];
         }
         self.arrive(simd, n, group, &places, pass);
-        pass.books.put(&group.knots, &pass.work.spent);
+        pass.work.spent.enter(&group.knots, pass.books);
         Ok(())
     }
 

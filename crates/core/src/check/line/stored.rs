@@ -2,11 +2,11 @@
 
 use fearless_simd::prelude::*;
 
-use super::collocation::NODES;
+use super::super::collocation::NODES;
+use super::super::lane::{Places, all, both, keep, larger};
+use super::super::outputs::{BLOCK, FRICTION, STOP};
 use super::group::Group;
 use super::knots::{LaneJudge, lists_of};
-use super::lane::{Places, all, both, keep, larger};
-use super::outputs::{BLOCK, FRICTION, STOP};
 use super::work::Pass;
 
 impl LaneJudge<'_> {

@@ -2,17 +2,17 @@
 
 use fearless_simd::dispatch;
 
-use super::collocation::{MAX_TURN, terms};
+use super::super::collocation::{MAX_TURN, terms};
+use super::super::judge::{Judge, Run, STILL};
+use super::super::lane::LANES;
+use super::super::law::{StickDemand, UNBOUNDED};
+use super::super::outputs::{FRICTION, SLIDER, VELOCITY};
+use super::Line;
 use super::group::{Course, Group, Key};
-use super::judge::{Judge, Run, STILL};
 use super::knots::{LaneJudge, Worst};
-use super::lane::LANES;
-use super::law::{StickDemand, UNBOUNDED};
-use super::line::Line;
 use super::maps::{Maps, Spread};
-use super::near::{Watch, Watched};
-use super::outputs::{FRICTION, SLIDER, VELOCITY};
 use super::sweep::{Even, EvenRun, Floors, Kind, MOST_STEPS};
+use super::watch::{Watch, Watched};
 use super::work::{Pass, Work};
 use crate::error::Stopped;
 use crate::response::{Contact, Mode};
@@ -80,7 +80,7 @@ impl<'a> Judge<'a, Line<'a>> {
         for group in rest.iter_mut().flatten() {
             flush(&bench, group, (None, None), &mut pass, &mut watched)?;
         }
-        self.figures.take(&worst);
+        worst.enter(&mut self.figures);
         self.drift = worst.drift.map(|drift| drift.largest());
         self.still = (STILL * worst.sliding.largest()).max(self.still);
         self.axes.watched = watched;

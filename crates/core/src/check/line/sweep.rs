@@ -15,15 +15,14 @@
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
-use super::collocation::NODES;
-use super::energy::Spent;
-use super::ground::Ground;
+use super::super::collocation::NODES;
+use super::super::ground::Ground;
+use super::super::lane::{Eight, LANES, Places, all, both, inlined, larger, smaller};
+use super::super::outputs::{FRICTION, VELOCITY};
 use super::group::{Course, Group, Key};
 use super::knots::{BATCH, LaneJudge};
-use super::lane::{Eight, LANES, Places, all, both, inlined, larger, smaller};
 use super::maps::{Map, Maps, Spread};
-use super::outputs::{FRICTION, VELOCITY};
-use super::work::{Pass, Work};
+use super::work::{Pass, Spent, Work};
 use crate::error::Stopped;
 
 /// Most steps of an interval whose outputs are bounded from its ends.
@@ -267,7 +266,7 @@ impl LaneJudge<'_> {
             self.sides(simd, (group, end), &places, pass);
         }
         self.arrive(simd, n, group, &places, pass);
-        pass.books.put(&group.knots, &pass.work.spent);
+        pass.work.spent.enter(&group.knots, pass.books);
         let mut named = 0;
         for i in 0..way.deciding.len() {
             named |= self.near(simd, i, (way, spread), (group, &places), floors, pass.work);

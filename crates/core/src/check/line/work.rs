@@ -1,13 +1,48 @@
 //! The work space of intervals that are judged eight at a time.
 
-use super::collocation::{MOST_TERMS, NODES};
-use super::energy::{Books, Spent};
-use super::ground::Ground;
+use super::super::collocation::{MOST_TERMS, NODES};
+use super::super::energy::Books;
+use super::super::ground::Ground;
+use super::super::lane::{Eight, LANES};
+use super::super::outputs::Outputs;
 use super::knots::{LaneJudge, Worst};
-use super::lane::Eight;
-use super::near::{Extremes, Watch};
-use super::outputs::Outputs;
+use super::watch::{Extremes, Watch};
 use crate::progress::Pulse;
+
+/// What is told of the energies of an interval.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Spent {
+    pub(super) work: Eight,
+    pub(super) size: Eight,
+    pub(super) damping: Eight,
+    pub(super) friction: Eight,
+    /// What the rounding of `N` makes of them.
+    pub(super) blur: Eight,
+}
+
+impl Spent {
+    /// Enters it for the intervals from these knots on.
+    pub(super) fn enter(&self, knots: &[usize; LANES], books: &mut Books) {
+        let lists = [
+            (&mut books.work, &self.work),
+            (&mut books.size, &self.size),
+            (&mut books.damping, &self.damping),
+            (&mut books.friction, &self.friction),
+            (&mut books.blur, &self.blur),
+        ];
+        let (first, last) = (knots[0], knots[LANES - 1]);
+        let contiguous = knots.windows(2).all(|pair| pair[1] == pair[0] + 1);
+        for (list, values) in lists.into_iter().filter(|(list, _)| !list.is_empty()) {
+            if contiguous {
+                list[first..=last].copy_from_slice(&values.0);
+                continue;
+            }
+            for (knot, value) in knots.iter().zip(&values.0) {
+                list[*knot] = *value;
+            }
+        }
+    }
+}
 
 /// Inputs and paths of a group under judgement.
 pub(super) struct Work {

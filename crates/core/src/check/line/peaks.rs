@@ -3,14 +3,14 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{dispatch, f64x8};
 
-use super::collocation::{NODES, POINTS};
+use super::super::collocation::{NODES, POINTS};
+use super::super::lane::{Eight, LANES, all, both, inlined, larger, smaller};
+use super::super::law::UNBOUNDED;
+use super::super::outputs::{Outputs, raise_size};
+use super::super::structure::larger as greatest;
 use super::group::Group;
 use super::knots::LaneJudge;
-use super::lane::{Eight, LANES, all, both, inlined, larger, smaller};
-use super::law::UNBOUNDED;
 use super::maps::{Maps, Spread};
-use super::outputs::{Outputs, raise_size};
-use super::structure::larger as greatest;
 use super::work::{Pass, Work};
 
 /// All lanes.

@@ -2,16 +2,16 @@
 
 use core::ops::Range;
 
-use super::events::SLOWEST_IMPACT_M_PER_S;
-use super::ground::{Load, nearest};
+use super::super::events::SLOWEST_IMPACT_M_PER_S;
+use super::super::ground::{Load, nearest};
+use super::super::judge::{Directions, Judge};
+use super::super::law::{BOUNDLESS, StickDemand, UNBOUNDED, either};
+use super::super::outputs::{FRICTION, STOREYS};
+use super::super::structure::larger;
+use super::super::{ClosestCall, DecisionKind};
+use super::Line;
 use super::group::{Feed, Group};
-use super::judge::{Directions, Judge};
-use super::law::{BOUNDLESS, StickDemand, UNBOUNDED, either};
-use super::line::Line;
-use super::outputs::{FRICTION, STOREYS};
-use super::structure::larger;
 use super::work::Work;
-use super::{ClosestCall, DecisionKind};
 use crate::response::Mode;
 use crate::slider::Direction;
 

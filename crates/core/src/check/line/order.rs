@@ -1,14 +1,15 @@
 //! Intervals in order of time: near decisions, paths, surfaces, stops.
 
-use super::collocation::{POINTS, Rule};
-use super::ground::between;
+use super::super::collocation::{POINTS, Rule};
+use super::super::ground::between;
+use super::super::judge::{Directions, Judge, Run};
+use super::super::near::dip;
+use super::super::outputs::VELOCITY;
+use super::super::structure::{excess, larger};
+use super::Line;
 use super::group::{Feed, Group};
-use super::judge::{Directions, Judge, Run};
 use super::knots::rates_of;
-use super::line::Line;
-use super::near::{Points, Watch, dip};
-use super::outputs::VELOCITY;
-use super::structure::{excess, larger};
+use super::watch::{Points, Watch};
 use super::work::Work;
 use crate::response::{Contact, Mode};
 use crate::slider::Direction;
