@@ -202,15 +202,9 @@ impl LaneJudge<'_> {
         let Work { input, state, path, trace, bodies, .. } = work;
         let (places, rates) = trace.split_at_mut(NODES * d);
         let h = group.step_s.load(simd);
+        let start = inlined!(|k: usize| [input[k].load(simd), input[d + k].load(simd)]);
         let node = inlined!(|rates: &[Eight], i: usize, k: usize| {
-            let (mut dx, mut dv) = (all(simd, 0.0), all(simd, 0.0));
-            for j in 0..NODES {
-                let rate = rates[j * d + k].load(simd);
-                dv += all(simd, rule.a[i][j]) * rate;
-                dx += all(simd, rule.aa[i][j]) * rate;
-            }
-            let (x0, v0) = (input[k].load(simd), input[d + k].load(simd));
-            (x0 + h * (all(simd, rule.c[i]) * v0 + h * dx), v0 + h * dv)
+            rule.node(i, h, start(k), inlined!(|j: usize| rates[j * d + k].load(simd)))
         });
         rates.fill(Eight::ZERO);
         if let Some(places) = stored {
@@ -232,7 +226,7 @@ impl LaneJudge<'_> {
             let (mut change, mut size) = (all(simd, 0.0), all(simd, 0.0));
             for i in 0..NODES {
                 for (k, (x, v)) in state.iter_mut().enumerate() {
-                    let (place, speed) = node(rates, i, k);
+                    let [place, speed] = node(rates, i, k);
                     x.store(place);
                     v.store(speed);
                 }
@@ -261,20 +255,14 @@ impl LaneJudge<'_> {
             last.store(change);
         }
         for k in 0..d {
-            let (mut dx, mut dv) = (all(simd, 0.0), all(simd, 0.0));
-            for j in 0..NODES {
-                let share = all(simd, rule.weights[j]) * rates[j * d + k].load(simd);
-                dv += share;
-                dx += share * all(simd, 1.0 - rule.c[j]);
-            }
-            let (x0, v0) = (input[k].load(simd), input[d + k].load(simd));
-            path[NODES * d + k].store(x0 + h * (v0 + h * dx));
-            path[(NODES + 1) * d + k].store(v0 + h * dv);
+            let [x, v] = rule.end(h, start(k), inlined!(|j: usize| rates[j * d + k].load(simd)));
+            path[NODES * d + k].store(x);
+            path[(NODES + 1) * d + k].store(v);
         }
         let asks = group.asks();
         for i in 0..NODES {
             for (k, (x, v)) in state.iter_mut().enumerate() {
-                let (place, speed) = node(rates, i, k);
+                let [place, speed] = node(rates, i, k);
                 x.store(place);
                 v.store(speed);
                 places[i * d + k].store(place);

@@ -344,15 +344,9 @@ impl Stepper<'_> {
             }
         }
         for k in 0..d {
-            let (mut dx, mut dv) = (0.0, 0.0);
-            for j in 0..NODES {
-                let share = rule.weights[j] * rates[k][j];
-                dv += share;
-                dx += share * (1.0 - rule.c[j]);
-            }
             (x[k][0], v[k][0]) = (from.x[k], from.v[k]);
-            x[k][POINTS - 1] = from.x[k] + h * (from.v[k] + h * dx);
-            v[k][POINTS - 1] = from.v[k] + h * dv;
+            [x[k][POINTS - 1], v[k][POINTS - 1]] =
+                rule.end(h, [from.x[k], from.v[k]], |j| rates[k][j]);
         }
         let most =
             |list: &[f64; NODES]| list.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
@@ -372,13 +366,7 @@ impl Stepper<'_> {
 /// The state at a node.
 fn node(rule: &Rule, h: f64, from: &State, rates: &Rates, i: usize, state: &mut State) {
     for k in 0..rates.len() {
-        let (mut dx, mut dv) = (0.0, 0.0);
-        for j in 0..NODES {
-            dv += rule.a[i][j] * rates[k][j];
-            dx += rule.aa[i][j] * rates[k][j];
-        }
-        state.v[k] = from.v[k] + h * dv;
-        state.x[k] = from.x[k] + h * (rule.c[i] * from.v[k] + h * dx);
+        [state.x[k], state.v[k]] = rule.node(i, h, [from.x[k], from.v[k]], |j| rates[k][j]);
     }
 }
 
