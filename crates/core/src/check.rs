@@ -21,6 +21,7 @@ mod judge;
 mod knots;
 mod lane;
 mod law;
+mod line;
 mod maps;
 mod margins;
 mod near;
@@ -37,8 +38,9 @@ mod sweep;
 use core::fmt;
 
 use self::energy::Books;
-use self::judge::Judge;
+use self::judge::{Given, Judge};
 use self::law::Law;
+use self::outputs::Outputs;
 use self::structure::{Phase, Structure};
 use crate::error::Stopped;
 use crate::model::{Model, Stop, StopKind};
@@ -237,8 +239,11 @@ pub fn check_while(
     let judged = history
         .filter(|h| radians <= MAX_RADIANS && well_formed(model, model.storeys(), motion, h));
     let run = |history| {
-        let (law, given) = (Law::new(model, vertical), (response, history));
-        Judge::new(model, motion, given, (&structure, &law), Pulse::new(go_on)).run(bound)
+        let (law, outputs, pulse) =
+            (Law::new(model, vertical), Outputs::new(model), Pulse::new(go_on));
+        let (law, outputs) = (&law, &outputs);
+        let given = Given { model, motion, response, history, law, outputs, pulse };
+        Judge::of_line(given, &structure).run(bound)
     };
     let judged = judged.map_or(Ok(None), run)?;
     Ok(judged.unwrap_or_else(|| unjudged(bound)))

@@ -4,10 +4,11 @@ use super::ground::Load;
 use super::group::{Course, Feed, Key, UNBOUNDED};
 use super::judge::{Judge, STILL};
 use super::law::Sliding;
+use super::line::Line;
 use super::structure::{Phase, larger};
 use crate::response::{Contact, Mode};
 
-impl<'a> Judge<'a> {
+impl<'a> Judge<'a, Line<'a>> {
     /// How a slip of surfaces in series goes on from a knot.
     pub(super) fn sliding(&self, k: usize, mode: Mode) -> Option<Sliding> {
         let Mode::Slip(direction) = mode else { return None };
@@ -55,7 +56,7 @@ impl<'a> Judge<'a> {
                 slides += self.law.most();
             }
         }
-        for (mode, contents) in modes[1..].iter().zip(&self.structure.contents) {
+        for (mode, contents) in modes[1..].iter().zip(&self.axes.structure.contents) {
             if *mode != Mode::Stick {
                 slides += contents.kinetic_friction;
             }
@@ -74,9 +75,9 @@ impl<'a> Judge<'a> {
             _ => Phase::Slip,
         };
         let times_s = [h.time_s[k], h.time_s[k + 1]];
-        let feed = Feed::new(&mut self.ground, times_s, self.rates[phase as usize]);
+        let feed = Feed::new(&mut self.ground, times_s, self.axes.rates[phase as usize]);
         if !self.ground.is_at_sample(times_s[0]) {
-            let rounding = self.rounding(0, self.structure.total_kg, &feed.loads()[0]);
+            let rounding = self.rounding(0, self.axes.structure.total_kg, &feed.loads()[0]);
             self.unsure_n = larger(self.unsure_n, rounding);
         }
         self.course(k, modes, feed)

@@ -5,11 +5,12 @@ use core::ops::Range;
 use super::events::SLOWEST_IMPACT_M_PER_S;
 use super::ground::{Load, nearest};
 use super::group::{Feed, Group, UNBOUNDED};
-use super::judge::Judge;
+use super::judge::{Directions, Judge};
 use super::law::StickDemand;
+use super::line::Line;
 use super::outputs::{FRICTION, STOREYS};
 use super::path::Work;
-use super::structure::{excess, larger};
+use super::structure::larger;
 use super::{ClosestCall, DecisionKind};
 use crate::response::Mode;
 use crate::slider::Direction;
@@ -77,31 +78,23 @@ impl Asked {
     }
 }
 
-impl Judge<'_> {
-    /// Judges all decisions at knots.
-    pub(super) fn decide(&mut self) {
-        let mut asked = Asked { interfaces: self.h.interfaces, ..Asked::default() };
-        if self.at_start != self.h.modes(0) {
-            self.change(0, &mut asked);
-        }
+impl<'a> Judge<'a, Line<'a>> {
+    /// Judges all decisions at knots, of which modes change at some.
+    pub(super) fn judge_changes(&mut self, changes: &[usize]) {
         for run in 1..self.runs.len() {
-            let k = self.runs[run].from;
-            if self.strikes(k) {
-                self.impact(k);
-            } else if self.before(k) != self.h.modes(k) {
-                self.change(k, &mut asked);
+            if self.strikes(self.runs[run].from) {
+                self.impact(self.runs[run].from);
             }
+        }
+        let mut asked = Asked { interfaces: self.h.interfaces, ..Asked::default() };
+        for &k in changes.iter().filter(|&&k| !self.strikes(k)) {
+            self.change(k, &mut asked);
         }
         self.ask(&mut asked);
         for change in &asked.changes {
             self.changes(change, &asked);
             self.releases(change, &asked);
         }
-    }
-
-    /// Modes before a knot.
-    fn before(&self, k: usize) -> &[Mode] {
-        k.checked_sub(1).map_or(&self.at_start[..], |k| self.h.modes(k))
     }
 
     /// What is to be asked at a knot.
@@ -133,8 +126,7 @@ impl Judge<'_> {
     /// Modes after a knot, of which what has no velocity sticks.
     fn at_rest(&self, k: usize) -> Vec<Mode> {
         let one = |(i, mode): (usize, &Mode)| {
-            let [_, v] = self.stored(k, self.structure.degree_of(i));
-            if v == 0.0 { Mode::Stick } else { *mode }
+            if self.speed_at(k, i) == 0.0 { Mode::Stick } else { *mode }
         };
         self.h.modes(k).iter().enumerate().map(one).collect()
     }
@@ -157,7 +149,7 @@ impl Judge<'_> {
             bench.instants(group, &self.ground, &mut work);
             for lane in 0..lanes {
                 forces.extend([work.ends[0][FRICTION].0[lane], bench.block_mass(group, lane)]);
-                let contents = 0..self.structure.contents.len();
+                let contents = 0..self.axes.structure.contents.len();
                 forces.extend(contents.map(|e| bench.acceleration(&work, e, lane)));
             }
             group.count = 0;
@@ -186,33 +178,33 @@ impl Judge<'_> {
         hold: [f64; 2],
         normal: f64,
     ) -> StickDemand {
-        let Some(contents) = i.checked_sub(1).map(|e| &self.structure.contents[e]) else {
+        let Some(contents) = i.checked_sub(1).map(|e| &self.axes.structure.contents[e]) else {
             let [low, high] = hold;
             let low = if low <= -UNBOUNDED { f64::NEG_INFINITY } else { low * normal };
             let high = if high >= UNBOUNDED { f64::INFINITY } else { high * normal };
             return StickDemand { demand: value, low, high };
         };
-        let share = contents.mass_kg / self.structure.total_kg;
+        let share = contents.mass_kg / self.axes.structure.total_kg;
         let high = contents.static_friction * share * normal;
         StickDemand { demand: contents.mass_kg * value, low: -high, high }
     }
 
     /// What the rounding of times makes of what an interface at rest is asked for, less what holds it.
     pub(super) fn rounding(&self, i: usize, mass_kg: f64, load: &Load) -> f64 {
-        let mu = match i.checked_sub(1).map(|e| &self.structure.contents[e]) {
+        let mu = match i.checked_sub(1).map(|e| &self.axes.structure.contents[e]) {
             None => self.law.most(),
-            Some(c) => c.static_friction * c.mass_kg / self.structure.total_kg,
+            Some(c) => c.static_friction * c.mass_kg / self.axes.structure.total_kg,
         };
         load.rounding(self.ground.blur(), mass_kg, mu)
     }
 
     /// Mass of an interface's own body with what sticks to it at a knot.
     pub(super) fn stuck_mass(&self, k: usize, i: usize) -> f64 {
-        let contents = &self.structure.contents;
+        let contents = &self.axes.structure.contents;
         match i.checked_sub(1) {
             Some(e) => contents[e].mass_kg,
             None => contents.iter().zip(&self.h.modes(k)[1..]).fold(
-                self.structure.block_kg,
+                self.axes.structure.block_kg,
                 |sum, (contents, mode)| match mode {
                     Mode::Stick if contents.floor == 0 => sum + contents.mass_kg,
                     _ => sum,
@@ -248,7 +240,7 @@ impl Judge<'_> {
         let of = |place: usize| forces.get(place).copied().unwrap_or(f64::NAN);
         let (value, mass_kg) = match i.checked_sub(1) {
             None => (of(0), of(1)),
-            Some(e) => (of(2 + e), self.structure.contents[e].mass_kg),
+            Some(e) => (of(2 + e), self.axes.structure.contents[e].mass_kg),
         };
         (self.asked_in(i, value, hold, load.normal), self.rounding(i, mass_kg, load))
     }
@@ -259,7 +251,8 @@ impl Judge<'_> {
         let (h, time_s) = (self.h, self.h.time_s[k]);
         let after = h.modes(k);
         let all = self.ground.instant(time_s);
-        let nearest_s = nearest(&all, h.table_acceleration_m_per_s2[k]);
+        let table = h.table_acceleration_m_per_s2[k];
+        let nearest_s = nearest(all.map(|load| (load.table - table).abs()));
         let at_rest = self.at_rest(k);
         for i in 0..after.len() {
             let before = self.before(k);
@@ -270,44 +263,13 @@ impl Judge<'_> {
             // A bounce below the rounding of s turns back to the stop: that does not hold it.
             let hold = self.hold_at(k, after[i] == Mode::Stick);
             // The others may have changed before it or after it, or been held meanwhile.
-            let (mut least, mut closest) = (f64::INFINITY, f64::INFINITY);
-            let mut margin = None;
-            let alone = if after.len() == 1 { 1 } else { 3 };
-            for (load, is_nearest) in all.iter().zip(nearest_s) {
-                // What a jump passes on its way lets go too.
-                if !(is_nearest || was == Mode::Stick) {
-                    continue;
-                }
-                for (place, others) in [before, after, &at_rest].into_iter().take(alone).enumerate()
-                {
-                    let forces = asked.forces(change, others, Some(i), load);
-                    let (asked, rounding) = self.asked(i, forces, hold, load);
-                    let beyond = match after[i] {
-                        Mode::Stick => asked.beyond(),
-                        Mode::Slip(Direction::Positive) => asked.demand - asked.low,
-                        Mode::Slip(Direction::Negative) => asked.high - asked.demand,
-                    };
-                    let beyond = excess(beyond - rounding);
-                    if place == 0 && beyond <= closest {
-                        closest = beyond;
-                        margin = asked.margin().map(|m| (m.abs(), rounding / asked.bound()));
-                    }
-                    least = least.min(beyond);
-                }
-            }
-            // Distances that are not numbers leave no candidate.
-            self.figures.excess = larger(self.figures.excess, least);
-            if let (true, Some((margin, drift))) = (was != Mode::Stick, margin) {
-                if i == 0 {
-                    self.totals.decided(margin, drift);
-                }
-                self.nearest(ClosestCall {
-                    margin,
-                    time_s,
-                    kind: DecisionKind::Stop,
-                    interface: i,
-                });
-            }
+            let others = [before, after, &at_rest];
+            let places = if after.len() == 1 { 1 } else { 3 };
+            let found = self.weigh((k, i), nearest_s, places, |load, place| {
+                let forces = asked.forces(change, others[place], Some(i), &all[load]);
+                self.asked(i, forces, hold, &all[load])
+            });
+            self.decided((k, i), found);
         }
         let was = self.before(k)[0];
         if was != Mode::Stick
@@ -329,7 +291,8 @@ impl Judge<'_> {
         }
         let all = self.ground.instant(self.h.time_s[k]);
         let side = |table: f64| {
-            let place = nearest(&all, table).iter().position(|is| *is);
+            let off = all.map(|load| (load.table - table).abs());
+            let place = nearest(off).iter().position(|is| *is);
             all[place.unwrap_or(0)]
         };
         let to = side(self.h.table_acceleration_m_per_s2[k]);
@@ -392,10 +355,10 @@ impl Judge<'_> {
         let [[_, before], [_, after]] = [k - 1, k].map(|k| self.stored(k, 0));
         self.figures.velocity[0] = larger(self.figures.velocity[0], after + e * before);
         let n = self.h.storeys;
-        for i in 0..self.structure.degrees() {
+        for i in 0..self.axes.structure.degrees() {
             let [[x0, v0], [x1, v1]] = [k - 1, k].map(|k| self.stored(k, i));
             self.figures.displacement[0] = larger(self.figures.displacement[0], x1 - x0);
-            let on_block = i > n && self.structure.contents[i - 1 - n].floor == 0;
+            let on_block = i > n && self.axes.structure.contents[i - 1 - n].floor == 0;
             let change = if (1..=n).contains(&i) || on_block { before - after } else { 0.0 };
             if i > 0 {
                 self.figures.velocity[0] = larger(self.figures.velocity[0], v1 - v0 - change);
@@ -411,30 +374,7 @@ impl Judge<'_> {
     /// Energy that an impact takes, in J.
     pub(super) fn lost_in_impact(&self, k: usize) -> f64 {
         let [[_, before], [_, after]] = [k - 1, k].map(|k| self.stored(k, 0));
-        0.5 * self.structure.block_kg * (before * before - after * after)
-    }
-
-    /// Turns of the block short of a rigid stop: how far, over the gap.
-    pub(super) fn near_misses(&self) -> Vec<ClosestCall> {
-        let h = self.h;
-        let mut calls = Vec::new();
-        for side in [Direction::Positive, Direction::Negative] {
-            let Some(wall) = self.law.wall(side) else { continue };
-            let gap_m = wall.abs();
-            // Where the block came to a halt on its way there.
-            let halts = (0..h.len().saturating_sub(1)).filter(|&k| {
-                h.modes(k)[0] == Mode::Slip(side)
-                    && h.modes(k + 1)[0] != Mode::Slip(side)
-                    && h.sliding_velocity_m_per_s[k] == 0.0
-            });
-            let turns = halts.map(|k| (side.sign() * h.sliding_displacement_m[k], k));
-            let turns = turns.filter(|(s, _)| *s < gap_m);
-            if let Some((s, k)) = turns.reduce(|a, b| if b.0 > a.0 { b } else { a }) {
-                let (margin, time_s) = (1.0 - s / gap_m, h.time_s[k]);
-                calls.push(ClosestCall { margin, time_s, kind: DecisionKind::Miss, interface: 0 });
-            }
-        }
-        calls
+        0.5 * self.axes.structure.block_kg * (before * before - after * after)
     }
 }
 

@@ -63,6 +63,9 @@ impl Totals {
 #[derive(Clone, Copy)]
 pub(super) struct Own<'a> {
     pub(super) outputs: &'a Outputs,
+    /// Peak, largest, least and last sliding displacement, and what they are measured by.
+    pub(super) sliding_m: [f64; 4],
+    pub(super) scale_m: f64,
     /// Largest sizes of the outputs.
     pub(super) peaks: &'a [f64],
     /// The same with what rounding decides, and what differences are measured by.
@@ -91,6 +94,7 @@ pub(super) struct Rounding {
 }
 
 /// The largest difference between printed and recomputed demands so far.
+#[derive(Default)]
 pub(super) struct Comparison {
     pub(super) worst: f64,
 }
@@ -123,45 +127,52 @@ impl Comparison {
     }
 }
 
-/// [`super::Certificate::demands_error`].
-pub(super) fn error(
-    model: &Model,
-    response: &Response,
-    h: &History,
+/// Compares the printed demands of a whole motion with one's own.
+pub(super) fn of_motion(
+    c: &mut Comparison,
+    (model, response, h): (&Model, &Response, &History),
     own: &Own<'_>,
     rounding: &Rounding,
-) -> f64 {
-    let mut c = Comparison { worst: 0.0 };
-    let d = &response.demands;
-    let [peak_m, most_m, least_m, last_m] = extremes(h.sliding_displacement_m.iter().copied());
-    let near_m = rounding.displacement_m;
-    for (printed, own) in [
-        (d.peak_sliding_displacement_m, peak_m),
-        (d.max_sliding_displacement_m, most_m),
-        (d.min_sliding_displacement_m, least_m),
-        (d.residual_sliding_displacement_m, last_m),
-    ] {
-        c.number(printed, own, near_m, peak_m);
+) {
+    let (d, near_m) = (&response.demands, rounding.displacement_m);
+    of_directions(c, model, d, own, rounding);
+    let instants_s = of_sums(c, d, h, own, rounding);
+    of_contents(c, model, (d, h), own, (instants_s, rounding));
+    of_surfaces(c, model, &d.surfaces, h, near_m);
+    of_events(c, response, own, own.scale_m.max(near_m), rounding);
+    of_stops(c, response, own);
+    of_stop(c, model, d, own, (instants_s, rounding));
+}
+
+/// The same of what there is in every direction: sliding displacements and the peaks of outputs.
+pub(super) fn of_directions(
+    c: &mut Comparison,
+    model: &Model,
+    d: &Demands,
+    own: &Own<'_>,
+    rounding: &Rounding,
+) {
+    let printed = [
+        d.peak_sliding_displacement_m,
+        d.max_sliding_displacement_m,
+        d.min_sliding_displacement_m,
+        d.residual_sliding_displacement_m,
+    ];
+    for (printed, own_m) in printed.into_iter().zip(own.sliding_m) {
+        c.number(printed, own_m, rounding.displacement_m, own.scale_m);
     }
-    first_time(&mut c, d, h, peak_m, rounding);
-    let instants_s = of_sums(&mut c, d, h, own, (peak_m, rounding));
-    of_peaks(&mut c, model, d, own, (peak_m, rounding));
-    of_contents(&mut c, model, (d, h), own, (instants_s, rounding));
-    of_surfaces(&mut c, model, &d.surfaces, h, near_m);
-    of_events(&mut c, response, own, peak_m.max(near_m), rounding);
-    of_stops(&mut c, response, own);
-    of_stop(&mut c, model, d, own, (instants_s, rounding));
-    c.worst
+    of_peaks(c, model, d, own, rounding);
 }
 
 /// Sums over time; what the rounding of all times makes of one.
-pub(super) fn of_sums(
+fn of_sums(
     c: &mut Comparison,
     d: &Demands,
     h: &History,
     own: &Own<'_>,
-    (peak_m, rounding): (f64, &Rounding),
+    rounding: &Rounding,
 ) -> f64 {
+    let peak_m = own.scale_m;
     let instants_s = (own.events.list.len() + 1) as f64 * rounding.instant_s;
     let near_m = rounding.displacement_m;
     let sums = &own.totals.interfaces[0];
@@ -174,7 +185,7 @@ pub(super) fn of_sums(
 }
 
 /// The least margin of the decisions at stops.
-pub(super) fn of_stops(c: &mut Comparison, response: &Response, own: &Own<'_>) {
+fn of_stops(c: &mut Comparison, response: &Response, own: &Own<'_>) {
     let closest = own.totals.closest_stop.filter(|_| response.method == Method::Exact);
     match (response.demands.closest_stop, closest) {
         (Some(printed), Some(margin)) => {
@@ -185,19 +196,13 @@ pub(super) fn of_stops(c: &mut Comparison, response: &Response, own: &Own<'_>) {
 }
 
 /// Largest size, largest, least and last of a list.
-fn extremes(list: impl Iterator<Item = f64>) -> [f64; 4] {
+pub(super) fn extremes(list: impl Iterator<Item = f64>) -> [f64; 4] {
     let start = [0.0, f64::NEG_INFINITY, f64::INFINITY, 0.0];
     list.fold(start, |[peak, most, least, _], x| [larger(peak, x), x.max(most), x.min(least), x])
 }
 
 /// Peaks of the outputs, and what is a multiple of one.
-pub(super) fn of_peaks(
-    c: &mut Comparison,
-    model: &Model,
-    d: &Demands,
-    own: &Own<'_>,
-    (peak_m, rounding): (f64, &Rounding),
-) {
+fn of_peaks(c: &mut Comparison, model: &Model, d: &Demands, own: &Own<'_>, rounding: &Rounding) {
     let (weight_n, n) = (model.weight_n(), model.points());
     let (force_n, near_m) = (rounding.force_n, rounding.displacement_m);
     let over = |i: usize, divisor: f64| own.peak(i).map(|peak| peak / divisor);
@@ -235,7 +240,7 @@ pub(super) fn of_peaks(
         c.optional(storey.peak_drift_ratio, ratio, near_m / height_m.unwrap_or(1.0));
     }
     c.same(d.storeys.len() + d.points.len() == n && points.len() == n);
-    let ratio = own.gap_m.map(|gap_m| [peak_m / gap_m; 3]);
+    let ratio = own.gap_m.map(|gap_m| [own.scale_m / gap_m; 3]);
     c.optional(d.gap_ratio, ratio, near_m / own.gap_m.unwrap_or(1.0));
     let width_m = own.width_m.filter(|_| own.outputs.has_moment());
     let moment = width_m.map(|width_m| 0.5 * width_m * weight_n);
@@ -271,7 +276,13 @@ fn of_contents(
 }
 
 /// The printed time of the peak is that of a knot where |s| has risen to it.
-fn first_time(c: &mut Comparison, d: &Demands, h: &History, peak_m: f64, rounding: &Rounding) {
+pub(super) fn of_peak_time(
+    c: &mut Comparison,
+    d: &Demands,
+    h: &History,
+    peak_m: f64,
+    rounding: &Rounding,
+) {
     let at_s = d.peak_sliding_displacement_time_s;
     let size = |k: usize| h.sliding_displacement_m[k].abs();
     let near = |k: &usize| (h.time_s[*k] - at_s).abs() <= rounding.instant_s;
@@ -332,7 +343,7 @@ fn of_stop(
 }
 
 /// Counts, times, directions and places of the events, kind by kind.
-pub(super) fn of_events(
+fn of_events(
     c: &mut Comparison,
     response: &Response,
     own: &Own<'_>,

@@ -15,7 +15,7 @@ use super::collocation::NODES;
 use super::group::Group;
 use super::knots::LaneJudge;
 use super::lane::{Eight, all, both, inlined, larger, smaller};
-use super::outputs::{FRICTION, Outputs, each_output};
+use super::outputs::{FRICTION, Outputs};
 use super::path::Work;
 use super::structure::StoreyDamping;
 
@@ -34,13 +34,10 @@ impl LaneJudge<'_> {
     #[inline(always)]
     pub(super) fn at<S: Simd>(&self, simd: S, group: &Group, input: &[Eight], part: f64) -> Now<S> {
         let d = self.structure.degrees();
-        let linear = inlined(
-            #[inline(always)]
-            |from: &Eight, to: &Eight| {
-                let from = from.load(simd);
-                from + (to.load(simd) - from) * all(simd, part)
-            },
-        );
+        let linear = inlined!(|from: &Eight, to: &Eight| {
+            let from = from.load(simd);
+            from + (to.load(simd) - from) * all(simd, part)
+        });
         Now {
             a: linear(&input[2 * d], &input[2 * d + 1]),
             load: linear(&input[2 * d + 2], &input[2 * d + 3]),
@@ -70,13 +67,8 @@ impl LaneJudge<'_> {
         (x, v): (impl Fn(usize) -> f64x8<S> + Copy, impl Fn(usize) -> f64x8<S> + Copy),
         input: &[Eight],
     ) -> [f64x8<S>; 2] {
-        let shear = self.base_force(
-            simd,
-            #[inline(always)]
-            |j| x(1 + j),
-            #[inline(always)]
-            |j| v(1 + j),
-        );
+        let shear =
+            self.base_force(simd, inlined!(|j: usize| x(1 + j)), inlined!(|j: usize| v(1 + j)));
         let mut pull = all(simd, 0.0);
         let contents = self.structure.contents.iter().enumerate();
         for (e, contents) in contents.filter(|(_, contents)| contents.floor == 0) {
@@ -224,14 +216,8 @@ impl LaneJudge<'_> {
         let d = self.structure.degrees();
         let Work { input, path, bodies, ends, .. } = work;
         let now = self.at(simd, group, input, end as f64);
-        let x = inlined(
-            #[inline(always)]
-            |k: usize| state_of(input, path, end, k, d).load(simd),
-        );
-        let v = inlined(
-            #[inline(always)]
-            |k: usize| state_of(input, path, end, d + k, d).load(simd),
-        );
+        let x = inlined!(|k: usize| state_of(input, path, end, k, d).load(simd));
+        let v = inlined!(|k: usize| state_of(input, path, end, d + k, d).load(simd));
         let forces = if self.structure.contents.is_empty() {
             self.on_block(simd, now, (x, v), input)
         } else {
@@ -257,14 +243,8 @@ impl LaneJudge<'_> {
         let (d, n) = (self.structure.degrees(), self.structure.masses_kg.len());
         let Work { input, path, bodies, ends, .. } = work;
         let now = self.at(simd, group, input, end as f64);
-        let x = inlined(
-            #[inline(always)]
-            |k: usize| state_of(input, path, end, k, d).load(simd),
-        );
-        let v = inlined(
-            #[inline(always)]
-            |k: usize| state_of(input, path, end, d + k, d).load(simd),
-        );
+        let x = inlined!(|k: usize| state_of(input, path, end, k, d).load(simd));
+        let v = inlined!(|k: usize| state_of(input, path, end, d + k, d).load(simd));
         self.outputs(
             simd,
             n,
@@ -272,8 +252,7 @@ impl LaneJudge<'_> {
             (x, v),
             input,
             bodies,
-            #[inline(always)]
-            |g, value| ends[end][g].store(value),
+            inlined!(|g: usize, value: f64x8<S>| ends[end][g].store(value)),
         );
     }
 
@@ -294,15 +273,8 @@ impl LaneJudge<'_> {
         let structure = self.structure;
         let forces = self.accelerate(simd, n, group, now, (x, v), input, bodies);
         let asked = self.friction(simd, group, now, (x(0), v(0)), forces, input);
-        let slope = all(simd, self.slope);
-        let body = inlined(
-            #[inline(always)]
-            |k: usize| bodies[k].load(simd),
-        );
-        let [stiffness, damper] = both(
-            #[inline(always)]
-            |i| group.stop[i].load(simd),
-        );
+        let body = inlined!(|k: usize| bodies[k].load(simd));
+        let [stiffness, damper] = both!(|i| group.stop[i].load(simd));
         let shift = group.stop[2].load(simd);
         let mut stop = stiffness * x(0) + damper * v(0) - shift;
         let restoring = if self.law.series.is_some() { all(simd, 0.0) } else { now.rise };
@@ -310,54 +282,21 @@ impl LaneJudge<'_> {
         let slider = asked - (spring + all(simd, structure.damper) * v(0)) - stop;
         let mut friction = asked;
         if self.law.restitution().is_some() {
-            let [low, high] = both(
-                #[inline(always)]
-                |i| {
-                    let [from, to] = both(
-                        #[inline(always)]
-                        |end| group.normal[end].load(simd),
-                    );
-                    group.taken[i].load(simd) * (from + (to - from) * all(simd, now.part))
-                },
-            );
+            let [low, high] = both!(|i| {
+                let [from, to] = both!(|end| group.normal[end].load(simd));
+                group.taken[i].load(simd) * (from + (to - from) * all(simd, now.part))
+            });
             friction = smaller(larger(asked, low), high);
             stop += friction - asked;
         }
-        let total = body(0);
-        let point = inlined(
-            #[inline(always)]
-            |i: usize| {
-                outputs.point(
-                    simd,
-                    i,
-                    total,
-                    #[inline(always)]
-                    |j| x(1 + j),
-                    #[inline(always)]
-                    |j| body(1 + j),
-                )
-            },
-        );
-        let moment = outputs.moment(
-            simd,
-            total,
-            #[inline(always)]
-            |i| point(i)[1],
-            #[inline(always)]
-            |e| body(1 + n + e),
-        );
-        let fixed = [v(0), total - slope, slider, friction, forces[0], moment, stop];
-        each_output(
-            simd,
-            (outputs.points(), structure.contents.len()),
-            fixed,
-            #[inline(always)]
-            |i| {
-                let [q, a] = point(i);
-                [q, a - slope]
-            },
-            #[inline(always)]
-            |e| [v(1 + n + e), body(1 + n + e) - slope],
+        outputs.each(
+            [v(0), slider, friction, forces[0], stop],
+            (self.slope, body(0)),
+            inlined!(|i: usize| {
+                let (x, a) = (inlined!(|j: usize| x(1 + j)), inlined!(|j: usize| body(1 + j)));
+                outputs.point(i, body(0), x, a)
+            }),
+            inlined!(|e: usize| [v(1 + n + e), body(1 + n + e)]),
             out,
         );
     }

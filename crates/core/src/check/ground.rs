@@ -39,9 +39,8 @@ pub(super) struct Piece {
     pub(super) loads: [Load; 2],
 }
 
-/// Which of the loads at an instant have the table acceleration nearest to one.
-pub(super) fn nearest(all: &[Load; 4], table: f64) -> [bool; 4] {
-    let off = all.map(|load| (load.table - table).abs());
+/// Which of the loads at an instant are nearest to what is stored, by how far each is off.
+pub(super) fn nearest(off: [f64; 4]) -> [bool; 4] {
     let least = off.into_iter().fold(f64::INFINITY, f64::min);
     off.map(|off| off <= least)
 }

@@ -3,11 +3,11 @@
 use fearless_simd::dispatch;
 
 use super::collocation::MAX_TURN;
-use super::energy::Books;
 use super::group::{Course, Group, Key, UNBOUNDED};
-use super::judge::{Judge, STILL};
-use super::knots::{Knots, LaneJudge, Worst};
+use super::judge::{Judge, Run, STILL};
+use super::knots::{LaneJudge, Worst};
 use super::lane::LANES;
+use super::line::Line;
 use super::maps::{Maps, Spread};
 use super::margins::{Points, Watch};
 use super::outputs::{FRICTION, SLIDER, VELOCITY};
@@ -32,59 +32,29 @@ pub(super) struct Kind {
     pub(super) spread: Spread,
 }
 
-/// Knots of constant modes and contact, and the intervals between them.
-#[derive(Clone, Copy)]
-pub(super) struct Run {
-    pub(super) from: usize,
-    pub(super) to: usize,
-}
-
-/// Figures of intervals that were looked at by their paths.
+/// Intervals that were looked at by their paths, and how many have been recalled in order of time.
+#[derive(Default)]
 pub(super) struct Watched {
     /// In order.
     pub(super) knots: Vec<usize>,
     /// One an interface.
     pub(super) watch: Vec<Watch<f64>>,
+    pub(super) recalled: usize,
+    /// Points of those in which a decision may have been close.
+    pub(super) points: Vec<Points>,
+    pub(super) looked_at: usize,
 }
 
-impl<'a> Judge<'a> {
-    /// Runs of knots in order: one begins where the last has ended, or abreast of it.
-    pub(super) fn find_runs(&self) -> Vec<Run> {
-        let (h, t) = (self.h, &self.h.time_s[..]);
-        let last = h.len() - 1;
-        let same =
-            |k: usize| h.modes(k) == h.modes(k + 1) && h.contact.get(k) == h.contact.get(k + 1);
-        let alone = h.interfaces == 1 && h.contact.is_empty();
-        let mut runs = Vec::new();
-        let (mut from, mut k) = (0, 0);
-        while k < last {
-            let goes_on = if alone { h.mode[k] == h.mode[k + 1] } else { same(k) };
-            if t[k + 1] > t[k] && goes_on {
-                k += 1;
-                continue;
-            }
-            // An interval has the modes of its start.
-            let to = if t[k + 1] > t[k] { k + 1 } else { k };
-            runs.push(Run { from, to });
-            (from, k) = (k + 1, k + 1);
-        }
-        runs.push(Run { from, to: last });
-        runs
-    }
-
+impl<'a> Judge<'a, Line<'a>> {
     /// Judges all intervals eight at a time; looks for peaks where there may be some.
-    pub(super) fn side_by_side(
-        &mut self,
-        knots: &Knots,
-        books: &mut Books,
-    ) -> Result<Watched, Stopped> {
+    pub(super) fn side_by_side(&mut self) -> Result<(), Stopped> {
         let (h, bench) = (self.h, self.bench());
         let mut worst = Worst::NONE;
         let mut work = Work::new(&bench, self.outputs.len());
         let mut kinds: Vec<Kind> = Vec::new();
         let (even, mut others) = self.even_runs(&mut kinds, &mut work);
-        let floors = self.look_at_batches(knots, &mut kinds);
-        let mut pass = self.pass(books, &mut work, &mut worst);
+        let floors = self.look_at_batches(&mut kinds);
+        let mut pass = self.pass(&mut work, &mut worst);
         let to = (&mut pass, &mut others);
         let level = bench.level;
         dispatch!(level, simd => bench.sweep(simd, &even, &mut kinds, &floors, to))?;
@@ -92,10 +62,10 @@ impl<'a> Judge<'a> {
         others.dedup();
         #[cfg(test)]
         {
-            self.swept = even.iter().map(|run| run.count).sum();
+            self.axes.swept = even.iter().map(|run| run.count).sum();
         }
         let watch = vec![Watch::default(); others.len() * h.interfaces];
-        let mut watched = Watched { knots: others, watch };
+        let mut watched = Watched { knots: others, watch, ..Watched::default() };
         let mut rest: Vec<Option<Group>> = (0..BUCKETS).map(|_| None).collect();
         for place in 0..watched.knots.len() {
             let k = watched.knots[place];
@@ -105,7 +75,7 @@ impl<'a> Judge<'a> {
             let kind = self.kind_of(&course, &mut kinds, &mut work);
             let (group, how) = match kind.map(|i| &mut kinds[i]) {
                 Some(kind) => {
-                    let even = (length_s - self.even_s).abs() <= 2.0 * self.instant_s;
+                    let even = (length_s - self.axes.even_s).abs() <= 2.0 * self.instant_s;
                     match kind.maps.as_ref().filter(|_| even) {
                         Some(maps) => (&mut kind.mapped, (Some(maps), Some(&kind.spread))),
                         None => (&mut kind.odd, (None, Some(&kind.spread))),
@@ -120,11 +90,11 @@ impl<'a> Judge<'a> {
                 }
             };
             if group.push(&bench, &course) {
-                let mut pass = self.pass(books, &mut work, &mut worst);
+                let mut pass = self.pass(&mut work, &mut worst);
                 flush(&bench, group, how, &mut pass, &mut watched)?;
             }
         }
-        let mut pass = self.pass(books, &mut work, &mut worst);
+        let mut pass = self.pass(&mut work, &mut worst);
         for Kind { mapped, odd, maps, spread, .. } in &mut kinds {
             flush(&bench, mapped, (maps.as_ref(), Some(spread)), &mut pass, &mut watched)?;
             flush(&bench, odd, (None, Some(spread)), &mut pass, &mut watched)?;
@@ -135,7 +105,8 @@ impl<'a> Judge<'a> {
         self.figures.take(&worst);
         self.drift = worst.drift.map(|drift| drift.largest());
         self.still = (STILL * worst.sliding.largest()).max(self.still);
-        Ok(watched)
+        self.axes.watched = watched;
+        Ok(())
     }
 
     /// Runs of even intervals that a sweep judges, and the intervals left.
@@ -146,7 +117,7 @@ impl<'a> Judge<'a> {
     ) -> (Vec<EvenRun<'a>>, Vec<usize>) {
         let h = self.h;
         let (mut runs, mut others) = (Vec::new(), Vec::new());
-        let step_s = [self.even_s, 2.0 * self.instant_s];
+        let step_s = [self.axes.even_s, 2.0 * self.instant_s];
         for place in 0..self.runs.len() {
             let Run { from, to } = self.runs[place];
             if from == to {
@@ -216,42 +187,42 @@ impl<'a> Judge<'a> {
     fn kind(&self, key: Key, rate: f64, work: &mut Work) -> Kind {
         let bench = self.bench();
         let groups = || Group::new(&bench);
-        let turn = rate * self.even_s;
+        let turn = rate * self.axes.even_s;
         let steps = if turn > MAX_TURN { libm::ceil(turn / MAX_TURN * (1.0 - 1e-9)) } else { 1.0 };
         let units = |length_s: f64, steps: usize, terms: usize, work: &mut Work| {
-            bench.units((&key, &self.outputs), (length_s, steps), terms, work)
+            bench.units((&key, self.outputs), (length_s, steps), terms, work)
         };
-        if !self.even_s.is_nan() && steps <= MOST_STEPS as f64 {
+        if !self.axes.even_s.is_nan() && steps <= MOST_STEPS as f64 {
             let terms = terms(turn);
-            let all = units(self.even_s, steps as usize, terms, work);
-            let even = Some(Even::new(&bench, &key, self.even_s, terms, all.sums));
-            let step = (steps > 1.0).then(|| units(self.even_s / steps, 1, 0, work).maps);
+            let all = units(self.axes.even_s, steps as usize, terms, work);
+            let even = Some(Even::new(&bench, &key, self.axes.even_s, terms, all.sums));
+            let step = (steps > 1.0).then(|| units(self.axes.even_s / steps, 1, 0, work).maps);
             let (maps, spread) = (step.or(Some(all.maps)), all.spread);
             return Kind { key, even, mapped: groups(), odd: groups(), maps, spread };
         }
         let longest_s = if rate > 0.0 { MAX_TURN / rate } else { f64::INFINITY };
-        let longest_s = longest_s.min(self.longest_s / steps);
+        let longest_s = longest_s.min(self.axes.longest_s / steps);
         let spread = units(longest_s, 1, 0, work).spread;
-        let maps = (!self.even_s.is_nan()).then(|| units(self.even_s / steps, 1, 0, work).maps);
+        let maps =
+            (!self.axes.even_s.is_nan()).then(|| units(self.axes.even_s / steps, 1, 0, work).maps);
         Kind { key, even: None, mapped: groups(), odd: groups(), maps, spread }
     }
 
     /// Bounds the outputs of all kinds batch by batch; says what is near.
-    fn look_at_batches(&self, knots: &Knots, kinds: &mut [Kind]) -> Floors {
-        let (n, d, normal) = (self.h.storeys, self.structure.degrees(), self.largest.0);
+    fn look_at_batches(&self, kinds: &mut [Kind]) -> Floors {
+        let (n, d, normal) = (self.h.storeys, self.axes.structure.degrees(), self.largest.0);
         let slope = self.model.slope_m_per_s2().abs();
         let load = self.law.most_sliding() * normal;
-        let pulls =
-            self.structure.contents.iter().flat_map(|contents| {
-                [contents.kinetic_friction / self.structure.total_kg * normal; 2]
-            });
+        let pulls = self.axes.structure.contents.iter().flat_map(|contents| {
+            [contents.kinetic_friction / self.axes.structure.total_kg * normal; 2]
+        });
         let pulls: Vec<f64> = pulls.collect();
         let mut fastest: Vec<f64> = (0..self.h.interfaces).map(|i| self.speed(i)).collect();
-        let margin = self.floor.max(0.0);
+        let margin = self.axes.floor.max(0.0);
         let known = self.law.restitution().is_none() && self.law.series.is_none();
         for kind in kinds {
             let Some(even) = &mut kind.even else { continue };
-            let batches = knots.batches().map(|(outputs, sizes)| {
+            let batches = self.axes.knots.batches().map(|(outputs, sizes)| {
                 let table = sizes[2 * d] + slope;
                 let mut inputs = sizes[..2 * d].to_vec();
                 let [forces, rates] = [0, n].map(|first| &sizes[2 * d + 1 + first..][..n]);
@@ -264,12 +235,12 @@ impl<'a> Judge<'a> {
             // What is held with a margin passes no peak of `T` that is as near to what holds at most. The
             // springs of surfaces in series add to that without limit.
             let held_n = (1.0 - margin) * self.law.most() * normal;
-            let alike = self.structure.spring == 0.0 && kind.key.push == [0.0; 2];
+            let alike = self.axes.structure.spring == 0.0 && kind.key.push == [0.0; 2];
             let outputs = if alike { &[FRICTION, SLIDER][..] } else { &[FRICTION] };
             let holds = even.holds() && self.law.series.is_none();
-            let settled = outputs.iter().filter(|&&g| holds && self.attained[g] >= held_n);
+            let settled = outputs.iter().filter(|&&g| holds && self.axes.attained[g] >= held_n);
             even.settle(settled);
-            let (off, largest) = kind.spread.look(batches, &self.attained);
+            let (off, largest) = kind.spread.look(batches, &self.axes.attained);
             even.bound(&off);
             for (i, fastest) in fastest.iter_mut().enumerate() {
                 *fastest = fastest.max(largest[self.place_of_speed(i)]);
@@ -282,23 +253,18 @@ impl<'a> Judge<'a> {
         let drops = (0..self.h.interfaces).map(|i| ways.iter().any(|way| self.drops(i, *way)));
         let drops: Vec<bool> = drops.collect();
         let speeds = fastest.iter().zip(&drops).map(|(fastest, drops)| match drops {
-            true => (self.floor * fastest).max(-self.still),
+            true => (self.axes.floor * fastest).max(-self.still),
             false => -self.still,
         });
         Floors { margin, speeds: speeds.collect(), drops }
     }
 
-    fn pass<'p>(
-        &'p mut self,
-        books: &'p mut Books,
-        work: &'p mut Work,
-        worst: &'p mut Worst,
-    ) -> Pass<'p, 'a> {
+    fn pass<'p>(&'p mut self, work: &'p mut Work, worst: &'p mut Worst) -> Pass<'p, 'a> {
         Pass {
             ground: &mut self.ground,
-            outputs: &self.outputs,
-            attained: &mut self.attained,
-            books,
+            outputs: self.outputs,
+            attained: &mut self.axes.attained,
+            books: &mut self.books,
             work,
             worst,
             pulse: &mut self.pulse,
@@ -309,7 +275,7 @@ impl<'a> Judge<'a> {
     /// is worth a search between knots.
     pub(super) fn find_floor(&mut self) {
         let h = self.h;
-        self.floor = self.closest.map_or(f64::INFINITY, |call| call.margin);
+        self.axes.floor = self.closest.map_or(f64::INFINITY, |call| call.margin);
         if self.ground.has_vertical() || self.law.series.is_some() {
             return;
         }
@@ -330,7 +296,7 @@ impl<'a> Judge<'a> {
                     && here <= before
                     && here <= after
                 {
-                    self.floor = self.floor.min(here.max(0.0) + 1e-9);
+                    self.axes.floor = self.axes.floor.min(here.max(0.0) + 1e-9);
                 }
             }
         }
@@ -338,7 +304,7 @@ impl<'a> Judge<'a> {
 
     /// The largest speed of an interface.
     pub(super) fn speed(&self, i: usize) -> f64 {
-        self.attained[self.place_of_speed(i)]
+        self.axes.attained[self.place_of_speed(i)]
     }
 
     fn place_of_speed(&self, i: usize) -> usize {
@@ -347,7 +313,7 @@ impl<'a> Judge<'a> {
 
     /// Whether an interface could stick where it slides, without slowing down to it smoothly.
     pub(super) fn drops(&self, i: usize, direction: Direction) -> bool {
-        match i.checked_sub(1).map(|e| &self.structure.contents[e]) {
+        match i.checked_sub(1).map(|e| &self.axes.structure.contents[e]) {
             None => self.law.drops(direction),
             Some(contents) => contents.static_friction > contents.kinetic_friction,
         }
@@ -359,9 +325,9 @@ impl<'a> Judge<'a> {
         let h = self.h;
         let contact = self.contact(k) != Contact::Free && h.modes(k)[0] != Mode::Stick;
         let near = |(i, (watch, mode)): (usize, (&Watch<f64>, &Mode))| match mode {
-            Mode::Stick => !(watch.least >= 0.0) || watch.low < self.floor,
+            Mode::Stick => !(watch.least >= 0.0) || watch.low < self.axes.floor,
             Mode::Slip(direction) => {
-                let floor = self.floor * self.speed(i);
+                let floor = self.axes.floor * self.speed(i);
                 let wrong = !(watch.least.min(watch.low) >= -self.still);
                 wrong || self.drops(i, *direction) && watch.low < floor
             }
@@ -370,18 +336,15 @@ impl<'a> Judge<'a> {
     }
 
     /// The points of intervals in which a decision may have been close, in order of time.
-    pub(super) fn look_again(
-        &mut self,
-        watched: &Watched,
-        books: &mut Books,
-    ) -> Result<Vec<Points>, Stopped> {
+    pub(super) fn look_again(&mut self) -> Result<(), Stopped> {
         let bench = self.bench();
         let mut found = Vec::new();
         let mut work = Work::new(&bench, self.outputs.len());
         let mut worst = Worst::NONE;
         let mut group = Group::new(&bench);
-        let watch = watched.watch.chunks_exact(self.h.interfaces);
-        let near = watched.knots.iter().zip(watch).filter(|(k, watch)| self.is_near(**k, watch));
+        let Watched { knots, watch, .. } = &self.axes.watched;
+        let watch = watch.chunks_exact(self.h.interfaces);
+        let near = knots.iter().zip(watch).filter(|(k, watch)| self.is_near(**k, watch));
         let near: Vec<usize> = near.map(|(k, _)| *k).collect();
         for eight in near.chunks(LANES) {
             for &k in eight {
@@ -389,13 +352,14 @@ impl<'a> Judge<'a> {
                 group.push(&bench, &course);
             }
             group.fill();
-            let mut pass = self.pass(books, &mut work, &mut worst);
+            let mut pass = self.pass(&mut work, &mut worst);
             bench.points(&mut group, &mut pass, &mut found)?;
             group.count = 0;
         }
         // Steps of one interval stand in their order.
         found.sort_by_key(|points| points.knot);
-        Ok(found)
+        self.axes.watched.points = found;
+        Ok(())
     }
 }
 

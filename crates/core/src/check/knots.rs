@@ -6,7 +6,7 @@ use fearless_simd::{Level, f64x8};
 use super::collocation::Rule;
 use super::lane::{Eight, LANES, Places, add_chain, all, chain_form, inlined, keep, larger};
 use super::law::Law;
-use super::outputs::{Outputs, each_output};
+use super::outputs::Outputs;
 use super::structure::{StoreyDamping, Structure};
 use crate::error::Stopped;
 use crate::progress::Pulse;
@@ -67,7 +67,22 @@ pub(super) struct Acting<'a> {
     pub(super) passed: &'a [usize],
 }
 
+/// Displacements and velocities of a degree of a structure of `n` storeys, and its place in what is stored at a
+/// knot.
+#[inline(always)]
+pub(super) fn lists_of(h: &History, n: usize, degree: usize) -> ([&[f64]; 2], [usize; 2]) {
+    match degree {
+        0 => ([&h.sliding_displacement_m, &h.sliding_velocity_m_per_s], [1, 0]),
+        i if i <= n => ([&h.storey_displacement_m, &h.storey_velocity_m_per_s], [n, i - 1]),
+        i => {
+            let lists = [&h.contents_displacement_m[..], &h.contents_velocity_m_per_s];
+            (lists, [h.interfaces - 1, i - 1 - n])
+        }
+    }
+}
+
 /// What one look at the knots tells.
+#[derive(Default)]
 pub(super) struct Knots {
     pub(super) kinetic_j: Vec<f64>,
     pub(super) strain_j: Vec<f64>,
@@ -236,10 +251,7 @@ impl LaneJudge<'_> {
         let (h, structure) = (self.history, self.structure);
         let zero = all(simd, 0.0);
         let slope = all(simd, self.slope);
-        let one = inlined(
-            #[inline(always)]
-            |list: &[f64]| places.read(simd, list, 0, [1, 0]),
-        );
+        let one = inlined!(|list: &[f64]| places.read(simd, list, 0, [1, 0]));
         let s = one(&h.sliding_displacement_m);
         let w = one(&h.sliding_velocity_m_per_s);
         let block = one(&h.block_acceleration_m_per_s2);
@@ -261,10 +273,7 @@ impl LaneJudge<'_> {
         keep(simd, &mut sizes[d], w.abs());
         keep(simd, &mut sizes[2 * d], table.abs());
         for i in 0..n {
-            let of = inlined(
-                #[inline(always)]
-                |list: &[f64]| places.read(simd, list, 0, [n, i]),
-            );
+            let of = inlined!(|list: &[f64]| places.read(simd, list, 0, [n, i]));
             let (q, v) = (of(&h.storey_displacement_m), of(&h.storey_velocity_m_per_s));
             let a = of(&h.storey_acceleration_m_per_s2);
             sum += q + v + a;
@@ -318,10 +327,8 @@ impl LaneJudge<'_> {
         let stuck = self.stuck(simd, places, 0);
         // Contents pull at their floors with their inertia, whether they slide or not.
         for (e, contents) in structure.contents.iter().enumerate() {
-            let of = inlined(
-                #[inline(always)]
-                |list: &[f64]| places.read(simd, list, 0, [structure.contents.len(), e]),
-            );
+            let of =
+                inlined!(|list: &[f64]| places.read(simd, list, 0, [structure.contents.len(), e]));
             let p = of(&h.contents_velocity_m_per_s);
             let (r, a) = (of(&h.contents_displacement_m), of(&h.contents_acceleration_m_per_s2));
             sum += r + p + a;
@@ -368,69 +375,34 @@ impl LaneJudge<'_> {
         keep(simd, &mut worst.force[1], term);
         keep(simd, &mut worst.velocity[0], (w * stuck).abs());
         let half = all(simd, 0.5);
-        let form = chain_form(
-            simd,
-            structure.springs(),
-            #[inline(always)]
-            |i| bodies.q[i].load(simd),
-        );
+        let form =
+            chain_form(simd, structure.springs(), inlined!(|i: usize| bodies.q[i].load(simd)));
         let strain = half * (spring * s + form);
-        let out = inlined(
-            #[inline(always)]
-            |g: usize, value: f64x8<S>| {
-                keep(simd, &mut attained[g], value.abs() * lasts);
-            },
-        );
+        let out = inlined!(|g: usize, value: f64x8<S>| {
+            keep(simd, &mut attained[g], value.abs() * lasts);
+        });
         let base = self.base_force(
             simd,
-            #[inline(always)]
-            |i| bodies.q[i].load(simd),
-            #[inline(always)]
-            |i| bodies.v[i].load(simd),
-        );
-        let floor = inlined(
-            #[inline(always)]
-            |i: usize| bodies.a[i].load(simd) + slope,
-        );
-        let carried = inlined(
-            #[inline(always)]
-            |e: usize| bodies.carried[e][1].load(simd) + slope,
+            inlined!(|i: usize| bodies.q[i].load(simd)),
+            inlined!(|i: usize| bodies.v[i].load(simd)),
         );
         // Where more acts on the block the slider's force is not known from what is stored.
         let mut slider = force - (spring + damper) - stop;
         if !held.is_empty() {
             slider *= all(simd, 1.0) - one(held);
         }
-        let point = inlined(
-            #[inline(always)]
-            |i: usize| {
-                let q = inlined(
-                    #[inline(always)]
-                    |j: usize| bodies.q[j].load(simd),
-                );
-                outputs.point(simd, i, total, q, floor)
-            },
-        );
-        let moment = outputs.moment(
-            simd,
-            total,
-            #[inline(always)]
-            |i| point(i)[1],
-            carried,
-        );
-        let fixed = [w, block, slider, force, base, moment, stop];
-        each_output(
-            simd,
-            (outputs.points(), structure.contents.len()),
-            fixed,
-            #[inline(always)]
-            |i| {
-                let [q, a] = point(i);
-                // Without a detour over the slope where a floor's acceleration is stored as it is.
-                [q, if structure.on_block { a - slope } else { bodies.a[i].load(simd) }]
-            },
-            #[inline(always)]
-            |e| [bodies.carried[e][0].load(simd), bodies.carried[e][1].load(simd)],
+        outputs.each(
+            [w, slider, force, base, stop],
+            (self.slope, total),
+            inlined!(|i: usize| {
+                let q = inlined!(|j: usize| bodies.q[j].load(simd));
+                let a = inlined!(|j: usize| bodies.a[j].load(simd) + slope);
+                outputs.point(i, total, q, a)
+            }),
+            inlined!(|e: usize| {
+                let [velocity, acceleration] = &bodies.carried[e];
+                [velocity.load(simd), acceleration.load(simd) + slope]
+            }),
             out,
         );
         knots.kinetic_j[from..from + LANES].copy_from_slice(&(half * kinetic).to_array());

@@ -3,8 +3,24 @@
 //! Lanes never mix, no operation is fused with another and no sum is reordered: every instruction
 //! set gives the same bits.
 
+use core::ops::{Add, AddAssign, Mul, Sub};
+
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
+
+/// One number, or eight side by side.
+pub(super) trait Lane:
+    Copy
+    + AddAssign
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<f64, Output = Self>
+    + Sub<f64, Output = Self>
+{
+}
+
+impl Lane for f64 {}
+impl<S: Simd> Lane for f64x8<S> {}
 
 /// Knots or intervals side by side.
 pub(super) const LANES: usize = 8;
@@ -49,16 +65,34 @@ pub(super) fn smaller<S: Simd>(a: f64x8<S>, b: f64x8<S>) -> f64x8<S> {
 }
 
 /// A closure that is compiled into the loop that calls it, for its instructions.
+macro_rules! inlined {
+    ($($closure:tt)+) => {
+        $crate::check::lane::itself(#[inline(always)] $($closure)+)
+    };
+}
+pub(super) use inlined;
+
 #[inline(always)]
-pub(super) fn inlined<F>(closure: F) -> F {
+pub(super) fn itself<F>(closure: F) -> F {
     closure
 }
 
-/// The values of a closure at 0 and 1, likewise.
-#[inline(always)]
-pub(super) fn both<T>(at: impl Fn(usize) -> T) -> [T; 2] {
-    [at(0), at(1)]
+/// The values of an expression at 0 and 1.
+macro_rules! both {
+    (|$i:ident| $value:expr) => {
+        [
+            {
+                let $i = 0_usize;
+                $value
+            },
+            {
+                let $i = 1_usize;
+                $value
+            },
+        ]
+    };
 }
+pub(super) use both;
 
 /// Knots of eight lanes: those from one on, or any.
 pub(super) struct Places {

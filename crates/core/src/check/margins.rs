@@ -80,10 +80,7 @@ impl LaneJudge<'_> {
             }
             let part = self.rule.points[point];
             let Work { input, path, bodies, ends, seen, .. } = &mut *work;
-            let [from, to] = both(
-                #[inline(always)]
-                |end| group.normal[end].load(simd),
-            );
+            let [from, to] = both!(|end| group.normal[end].load(simd));
             let normal = from + (to - from) * all(simd, part);
             for (i, seen) in seen.iter_mut().enumerate() {
                 let at = s.degree_of(i);
@@ -103,10 +100,7 @@ impl LaneJudge<'_> {
                     let per_n = asked.load(simd) / normal;
                     let margin = match i.checked_sub(1) {
                         None => {
-                            let [low, high] = both(
-                                #[inline(always)]
-                                |i| group.hold[i].load(simd),
-                            );
+                            let [low, high] = both!(|i| group.hold[i].load(simd));
                             let below = (per_n - low) * group.scale[0].load(simd);
                             smaller((high - per_n) * group.scale[1].load(simd), below)
                         }

@@ -1,9 +1,7 @@
 //! The tracked outputs, and the largest sizes that they attain.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
-
 use super::collocation::{POINTS, Rule};
+use super::lane::Lane;
 use super::structure::larger;
 use crate::model::{Contents, Model};
 
@@ -17,35 +15,6 @@ pub(super) const BASE_SHEAR: usize = 4;
 pub(super) const OVERTURNING: usize = 5;
 pub(super) const STOP: usize = 6;
 pub(super) const STOREYS: usize = 7;
-
-/// Hands on all outputs in their order: those of the block, of the storeys from displacement and
-/// acceleration, of contents from velocity and acceleration.
-#[inline(always)]
-pub(super) fn each_output<S: Simd>(
-    simd: S,
-    (n, contents): (usize, usize),
-    block: [f64x8<S>; STOREYS],
-    storey: impl Fn(usize) -> [f64x8<S>; 2],
-    carried: impl Fn(usize) -> [f64x8<S>; 2],
-    mut out: impl FnMut(usize, f64x8<S>),
-) {
-    for g in 0..STOREYS {
-        out(g, block[g]);
-    }
-    let mut below = f64x8::splat(simd, 0.0);
-    for i in 0..n {
-        let [q, acceleration] = storey(i);
-        out(STOREYS + i, q);
-        out(STOREYS + n + i, q - below);
-        out(STOREYS + 2 * n + i, acceleration);
-        below = q;
-    }
-    for e in 0..contents {
-        let [velocity, acceleration] = carried(e);
-        out(STOREYS + 3 * n + e, velocity);
-        out(STOREYS + 3 * n + contents + e, acceleration);
-    }
-}
 
 /// `m z` of the block (to its centre), of the floors and of contents.
 struct Arm {
@@ -96,53 +65,74 @@ impl Outputs {
         STOREYS + 3 * self.points
     }
 
-    /// Displacement and total acceleration of a point, from the block's and those of floors or oscillators:
-    /// `Σ φ η` and `Σ φ η̈ + u`.
+    /// Hands on all outputs in their order. Those of the block are its velocity, the forces of slider and
+    /// friction, the base shear and the force on a stop; then come total accelerations, all with the slope's
+    /// share: of the block, of points beside their displacements, of contents beside their velocities.
     #[inline(always)]
-    pub(super) fn point<S: Simd>(
+    pub(super) fn each<L: Lane>(
         &self,
-        simd: S,
+        [w, slider, friction, base, stop]: [L; 5],
+        (slope, block): (f64, L),
+        point: impl Fn(usize) -> [L; 2],
+        carried: impl Fn(usize) -> [L; 2],
+        mut out: impl FnMut(usize, L),
+    ) {
+        let fixed = [
+            (VELOCITY, w),
+            (BLOCK, block - slope),
+            (SLIDER, slider),
+            (FRICTION, friction),
+            (BASE_SHEAR, base),
+            (STOP, stop),
+        ];
+        for (g, value) in fixed {
+            out(g, value);
+        }
+        // The moment about the sliding surface.
+        let mut moment = self.arm.as_ref().map(|arm| (arm, block * arm.block));
+        let n = self.points;
+        let mut below = None;
+        for i in 0..n {
+            let [q, total] = point(i);
+            out(STOREYS + i, q);
+            out(STOREYS + n + i, below.map_or(q, |below| q - below));
+            out(STOREYS + 2 * n + i, total - slope);
+            below = Some(q);
+            if let Some((arm, sum)) = &mut moment {
+                *sum += total * arm.floors[i];
+            }
+        }
+        for e in 0..self.contents {
+            let [velocity, total] = carried(e);
+            out(self.of_contents() + e, velocity);
+            out(self.of_contents() + self.contents + e, total - slope);
+            if let Some((arm, sum)) = &mut moment {
+                *sum += total * arm.contents[e];
+            }
+        }
+        if let Some((_, sum)) = moment {
+            out(OVERTURNING, sum);
+        }
+    }
+
+    /// Displacement and total acceleration of a point, from those of floors or oscillators: `Σ φ η` and
+    /// `Σ φ η̈ + u`.
+    #[inline(always)]
+    pub(super) fn point<L: Lane>(
+        &self,
         i: usize,
-        block: f64x8<S>,
-        x: impl Fn(usize) -> f64x8<S>,
-        a: impl Fn(usize) -> f64x8<S>,
-    ) -> [f64x8<S>; 2] {
+        block: L,
+        x: impl Fn(usize) -> L,
+        a: impl Fn(usize) -> L,
+    ) -> [L; 2] {
         let Some(of_modes) = &self.of_modes else { return [x(i), a(i)] };
         let (factors, with_block) = &of_modes[i];
-        let mut sums = [f64x8::splat(simd, 0.0), f64x8::splat(simd, *with_block) * block];
-        for (j, &factor) in factors.iter().enumerate() {
-            let factor = f64x8::splat(simd, factor);
-            sums[0] += factor * x(j);
-            sums[1] += factor * a(j);
+        let mut sums = [x(0) * factors[0], block * *with_block + a(0) * factors[0]];
+        for (j, &factor) in factors.iter().enumerate().skip(1) {
+            sums[0] += x(j) * factor;
+            sums[1] += a(j) * factor;
         }
         sums
-    }
-
-    /// The overturning moment about the sliding surface from total accelerations with the slope's share.
-    #[inline(always)]
-    pub(super) fn moment<S: Simd>(
-        &self,
-        simd: S,
-        block: f64x8<S>,
-        floor: impl Fn(usize) -> f64x8<S>,
-        contents: impl Fn(usize) -> f64x8<S>,
-    ) -> f64x8<S> {
-        let Some(arm) = &self.arm else { return f64x8::splat(simd, 0.0) };
-        let mut sum = f64x8::splat(simd, arm.block) * block;
-        for (i, &arm) in arm.floors.iter().enumerate() {
-            sum += f64x8::splat(simd, arm) * floor(i);
-        }
-        for (e, &arm) in arm.contents.iter().enumerate() {
-            sum += f64x8::splat(simd, arm) * contents(e);
-        }
-        sum
-    }
-
-    /// The same of a frame alone.
-    pub(super) fn plain_moment(&self, block: f64, floor: impl Fn(usize) -> f64) -> f64 {
-        let Some(arm) = &self.arm else { return 0.0 };
-        let floors = arm.floors.iter().enumerate().map(|(i, arm)| arm * floor(i));
-        arm.block * block + floors.sum::<f64>()
     }
 
     /// Height of what a moment is asked of, in m; 0 without one.

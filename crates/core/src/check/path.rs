@@ -7,7 +7,7 @@ use super::collocation::{MOST_PASSES, NODES, ROUNDING};
 use super::energy::Books;
 use super::ground::Ground;
 use super::group::Group;
-use super::knots::{LaneJudge, Worst};
+use super::knots::{LaneJudge, Worst, lists_of};
 use super::lane::{Eight, LANES, Places, all, both, inlined, keep, larger};
 use super::maps::{Maps, Spread};
 use super::margins::{Extremes, Watch};
@@ -186,19 +186,11 @@ impl LaneJudge<'_> {
     /// `x, v` stored at the knots.
     #[inline(always)]
     pub(super) fn read<S: Simd>(&self, simd: S, n: usize, places: &Places, input: &mut [Eight]) {
-        let h = self.history;
         let d = self.structure.degrees();
-        let e = d - 1 - n;
-        input[0].store(places.read(simd, &h.sliding_displacement_m, 0, [1, 0]));
-        input[d].store(places.read(simd, &h.sliding_velocity_m_per_s, 0, [1, 0]));
-        for i in 0..n {
-            input[1 + i].store(places.read(simd, &h.storey_displacement_m, 0, [n, i]));
-            input[d + 1 + i].store(places.read(simd, &h.storey_velocity_m_per_s, 0, [n, i]));
-        }
-        for i in 0..e {
-            let (r, p) = (&h.contents_displacement_m, &h.contents_velocity_m_per_s);
-            input[1 + n + i].store(places.read(simd, r, 0, [e, i]));
-            input[d + 1 + n + i].store(places.read(simd, p, 0, [e, i]));
+        for i in 0..d {
+            let ([x, v], at) = lists_of(self.history, n, i);
+            input[i].store(places.read(simd, x, 0, at));
+            input[d + i].store(places.read(simd, v, 0, at));
         }
     }
 
@@ -258,13 +250,10 @@ impl LaneJudge<'_> {
         later: usize,
     ) -> f64x8<S> {
         let h = self.history;
-        let floor = inlined(
-            #[inline(always)]
-            |floor: usize| match floor {
-                0 => places.read(simd, &h.block_acceleration_m_per_s2, later, [1, 0]),
-                i => places.read(simd, &h.storey_acceleration_m_per_s2, later, [n, i - 1]),
-            },
-        );
+        let floor = inlined!(|floor: usize| match floor {
+            0 => places.read(simd, &h.block_acceleration_m_per_s2, later, [1, 0]),
+            i => places.read(simd, &h.storey_acceleration_m_per_s2, later, [n, i - 1]),
+        });
         if degree == 0 {
             floor(0) - places.read(simd, &h.table_acceleration_m_per_s2, later, [1, 0])
         } else if degree <= n {
@@ -300,19 +289,16 @@ impl LaneJudge<'_> {
         let Work { input, state, path, trace, bodies, .. } = work;
         let (places, rates) = trace.split_at_mut(NODES * d);
         let h = group.step_s.load(simd);
-        let node = inlined(
-            #[inline(always)]
-            |rates: &[Eight], i: usize, k: usize| {
-                let (mut dx, mut dv) = (all(simd, 0.0), all(simd, 0.0));
-                for j in 0..NODES {
-                    let rate = rates[j * d + k].load(simd);
-                    dv += all(simd, rule.a[i][j]) * rate;
-                    dx += all(simd, rule.aa[i][j]) * rate;
-                }
-                let (x0, v0) = (input[k].load(simd), input[d + k].load(simd));
-                (x0 + h * (all(simd, rule.c[i]) * v0 + h * dx), v0 + h * dv)
-            },
-        );
+        let node = inlined!(|rates: &[Eight], i: usize, k: usize| {
+            let (mut dx, mut dv) = (all(simd, 0.0), all(simd, 0.0));
+            for j in 0..NODES {
+                let rate = rates[j * d + k].load(simd);
+                dv += all(simd, rule.a[i][j]) * rate;
+                dx += all(simd, rule.aa[i][j]) * rate;
+            }
+            let (x0, v0) = (input[k].load(simd), input[d + k].load(simd));
+            (x0 + h * (all(simd, rule.c[i]) * v0 + h * dx), v0 + h * dv)
+        });
         rates.fill(Eight::ZERO);
         if let Some(places) = stored {
             let per_s = all(simd, 1.0) / group.length_s.load(simd);
@@ -337,14 +323,8 @@ impl LaneJudge<'_> {
                     x.store(place);
                     v.store(speed);
                 }
-                let x = inlined(
-                    #[inline(always)]
-                    |k: usize| state[k].0.load(simd),
-                );
-                let v = inlined(
-                    #[inline(always)]
-                    |k: usize| state[k].1.load(simd),
-                );
+                let x = inlined!(|k: usize| state[k].0.load(simd));
+                let v = inlined!(|k: usize| state[k].1.load(simd));
                 let now = self.at(simd, group, input, rule.c[i]);
                 self.accelerate(simd, n, group, now, (x, v), input, bodies);
                 for k in 0..d {
@@ -387,14 +367,8 @@ impl LaneJudge<'_> {
                 places[i * d + k].store(place);
                 path[i * d + k].store(speed);
             }
-            let x = inlined(
-                #[inline(always)]
-                |k: usize| state[k].0.load(simd),
-            );
-            let v = inlined(
-                #[inline(always)]
-                |k: usize| state[k].1.load(simd),
-            );
+            let x = inlined!(|k: usize| state[k].0.load(simd));
+            let v = inlined!(|k: usize| state[k].1.load(simd));
             if !asks {
                 continue;
             }
@@ -428,17 +402,11 @@ impl LaneJudge<'_> {
         let (mut done, mut size, mut damping, mut friction) = (zero, zero, zero, zero);
         let h = group.step_s.load(simd);
         let Work { input, path, trace, fastest, .. } = work;
-        let [stiffness, damper] = both(
-            #[inline(always)]
-            |i| group.stop[i].load(simd),
-        );
+        let [stiffness, damper] = both!(|i| group.stop[i].load(simd));
         let shift = group.stop[2].load(simd);
         let follows = self.law.follows();
         for node in 0..NODES {
-            let v = inlined(
-                #[inline(always)]
-                |k: usize| path[node * d + k].load(simd),
-            );
+            let v = inlined!(|k: usize| path[node * d + k].load(simd));
             let now = self.at(simd, group, input, self.rule.c[node]);
             let weight = h * all(simd, self.rule.weights[node]);
             let mut momentum = all(simd, s.total_kg) * v(0);
@@ -464,12 +432,7 @@ impl LaneJudge<'_> {
             size += weight * power.abs();
             damping += weight
                 * (damper * v(0) * v(0)
-                    + self.dissipation(
-                        simd,
-                        v(0),
-                        #[inline(always)]
-                        |j| v(1 + j),
-                    ));
+                    + self.dissipation(simd, v(0), inlined!(|j: usize| v(1 + j))));
             let mut force = self.sliding_force(simd, group, (v(0), now.load - shift), input);
             if follows && solved {
                 force -= now.rise * trace[node * d].load(simd);

@@ -50,10 +50,7 @@ impl LaneJudge<'_> {
         }
         self.trace(group, outputs, work);
         for (g, nodes) in work.values.chunks_exact(NODES).enumerate() {
-            let ends = both(
-                #[inline(always)]
-                |end| work.ends[end][g].load(simd),
-            );
+            let ends = both!(|end| work.ends[end][g].load(simd));
             self.seek(simd, passes, ends, nodes, &mut attained[g]);
         }
     }
@@ -67,10 +64,7 @@ impl LaneJudge<'_> {
         } else if self.law.restitution().is_none() {
             return 0;
         }
-        let [low, high] = both(
-            #[inline(always)]
-            |i| group.taken[i].load(simd).abs(),
-        );
+        let [low, high] = both!(|i| group.taken[i].load(simd).abs());
         smaller(low, high).simd_lt(all(simd, UNBOUNDED)).to_bitmask()
     }
 
@@ -97,10 +91,7 @@ impl LaneJudge<'_> {
             for &(input, bound) in bounds {
                 off += all(simd, bound) * work.active[input].load(simd);
             }
-            let [first, last] = both(
-                #[inline(always)]
-                |end| work.ends[end][*g].load(simd).abs(),
-            );
+            let [first, last] = both!(|end| work.ends[end][*g].load(simd).abs());
             let limit = all(simd, attained[*g] * (1.0 + 1e-12));
             passes |= (larger(first, last) + share * off).simd_gt(limit).to_bitmask();
         }
@@ -118,14 +109,8 @@ impl LaneJudge<'_> {
         let Work { input, path, bodies, trace: traced, values, .. } = work;
         for i in 0..NODES {
             let now = self.at(simd, group, input, self.rule.c[i]);
-            let x = inlined(
-                #[inline(always)]
-                |k: usize| traced[i * d + k].load(simd),
-            );
-            let v = inlined(
-                #[inline(always)]
-                |k: usize| path[i * d + k].load(simd),
-            );
+            let x = inlined!(|k: usize| traced[i * d + k].load(simd));
+            let v = inlined!(|k: usize| path[i * d + k].load(simd));
             self.outputs(
                 simd,
                 n,
@@ -133,8 +118,7 @@ impl LaneJudge<'_> {
                 (x, v),
                 input,
                 bodies,
-                #[inline(always)]
-                |g, value| values[g * NODES + i].store(value),
+                inlined!(|g: usize, value: f64x8<S>| values[g * NODES + i].store(value)),
             );
         }
     }

@@ -16,6 +16,7 @@ mod straight;
 mod tests;
 
 use super::ground::Ground;
+use super::judge::Given;
 use super::law::Law;
 use super::outputs::Outputs;
 use super::{Certificate, MAX_RADIANS, unjudged, well_formed};
@@ -26,7 +27,7 @@ use crate::progress::{GoOn, Pulse};
 use crate::response::{History, HistoryAlongY, Response};
 use crate::slider::{Direction, RateCurve, RateLaw};
 use frame::PlaneFrame;
-use judge::{Given, PlaneJudge};
+use judge::PlaneJudge;
 
 /// [`super::check_while`] of a motion that has a component along y.
 pub(super) fn check(
@@ -60,9 +61,11 @@ pub(super) fn check(
     let bound = (100.0 * f64::EPSILON * radians).max(1e-10);
     let widths = [model.block().width_m, model.along_y().width_m];
     let outputs = Outputs::with_moment(model, widths.iter().any(Option::is_some));
-    let given = Given { model, motion, table_y, response, plane, h, along_y };
-    let judged = PlaneJudge::new(given, (&frame, &law), &outputs, Pulse::new(go_on)).run(bound)?;
-    judged.map_or_else(unjudged, Ok)
+    let (law, outputs, pulse) = (&law, &outputs, Pulse::new(go_on));
+    let given = Given { model, motion, response, history: h, law, outputs, pulse };
+    PlaneJudge::of_plane(given, (plane, along_y, table_y), &frame)
+        .run(bound)?
+        .map_or_else(unjudged, Ok)
 }
 
 /// Whether the slider is the same in all directions and nothing else slides or stops.
@@ -84,19 +87,38 @@ fn fades_alike(rate: &RateLaw) -> bool {
     matches!(rate.curve(), RateCurve::Exponential { .. }) && factor == other
 }
 
-/// Whether the part along y has the knots of a history.
+/// What is stored along x and along y: at every knot the table's acceleration, `s`, `ṡ`, the block's acceleration
+/// and `T`, and of every storey `q`, `q̇` and its acceleration.
+fn lists<'a>(h: &'a History, y: &'a HistoryAlongY) -> [[&'a [f64]; 8]; 2] {
+    [
+        [
+            &h.table_acceleration_m_per_s2,
+            &h.sliding_displacement_m,
+            &h.sliding_velocity_m_per_s,
+            &h.block_acceleration_m_per_s2,
+            &h.friction_force_n,
+            &h.storey_displacement_m,
+            &h.storey_velocity_m_per_s,
+            &h.storey_acceleration_m_per_s2,
+        ],
+        [
+            &y.table_acceleration_m_per_s2,
+            &y.sliding_displacement_m,
+            &y.sliding_velocity_m_per_s,
+            &y.block_acceleration_m_per_s2,
+            &y.friction_force_n,
+            &y.storey_displacement_m,
+            &y.storey_velocity_m_per_s,
+            &y.storey_acceleration_m_per_s2,
+        ],
+    ]
+}
+
+/// Whether the part along y has the knots of a history; the oscillators of a structure by its modes are all in the
+/// other part.
 fn is_beside(model: &Model, y: &HistoryAlongY, h: &History) -> bool {
-    // The oscillators of a structure by its modes are all in the other part.
-    let storeys_y = if model.structure().is_some() { 0 } else { h.storeys };
-    let knots = [
-        &y.table_acceleration_m_per_s2,
-        &y.sliding_displacement_m,
-        &y.sliding_velocity_m_per_s,
-        &y.block_acceleration_m_per_s2,
-        &y.friction_force_n,
-    ];
-    let storeys =
-        [&y.storey_displacement_m, &y.storey_velocity_m_per_s, &y.storey_acceleration_m_per_s2];
-    knots.iter().all(|list| list.len() == h.len())
-        && storeys.iter().all(|list| list.len() == h.len() * storeys_y)
+    let [along_x, along_y] = lists(h, y);
+    let by_modes = model.structure().is_some();
+    let wanted = |i: usize| if by_modes && i >= 5 { 0 } else { along_x[i].len() };
+    along_y.iter().enumerate().all(|(i, list)| list.len() == wanted(i))
 }

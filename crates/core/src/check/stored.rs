@@ -4,7 +4,7 @@ use fearless_simd::prelude::*;
 
 use super::collocation::NODES;
 use super::group::Group;
-use super::knots::LaneJudge;
+use super::knots::{LaneJudge, lists_of};
 use super::lane::{Places, all, both, keep, larger};
 use super::outputs::{BLOCK, FRICTION, STOP};
 use super::path::Pass;
@@ -39,28 +39,15 @@ impl LaneJudge<'_> {
             }
             for i in 0..=e {
                 let at = s.degree_of(i);
-                let (list, stride) = if i == 0 {
-                    (&h.sliding_displacement_m, [1, 0])
-                } else {
-                    (&h.contents_displacement_m, [e, i - 1])
-                };
-                let from = places.read(simd, list, 0, stride);
+                let ([places_m, _], stride) = lists_of(h, n, at);
+                let from = places.read(simd, places_m, 0, stride);
                 moved += (work.path[NODES * d + at].load(simd) - from).abs();
             }
             work.spent.blur.store(force * moved + all(simd, s.total_kg) * speed * drift);
         }
         for i in 0..d {
-            let (lists, at) = if i == 0 {
-                ([&h.sliding_displacement_m, &h.sliding_velocity_m_per_s], [1, 0])
-            } else if i <= n {
-                ([&h.storey_displacement_m, &h.storey_velocity_m_per_s], [n, i - 1])
-            } else {
-                ([&h.contents_displacement_m, &h.contents_velocity_m_per_s], [e, i - 1 - n])
-            };
-            let rates = both(
-                #[inline(always)]
-                |k| self.stored_rate(simd, (n, i), places, k).abs(),
-            );
+            let (lists, at) = lists_of(h, n, i);
+            let rates = both!(|k| self.stored_rate(simd, (n, i), places, k).abs());
             let x = work.path[NODES * d + i].load(simd);
             let v = work.path[(NODES + 1) * d + i].load(simd);
             let fastest = work.fastest[i].load(simd);

@@ -153,15 +153,7 @@ impl Lanes {
         let (group, samples) = (&mut self.group, Places::new(self.samples));
         let length = all(simd, length_s);
         group.set_length(simd, length);
-        let pair = inlined(
-            #[inline(always)]
-            |list: &[f64]| {
-                both(
-                    #[inline(always)]
-                    |end| samples.read(simd, list, end, [1, 0]),
-                )
-            },
-        );
+        let pair = inlined!(|list: &[f64]| { both!(|end| samples.read(simd, list, end, [1, 0])) });
         let [from, to] = pair(ground.horizontal());
         group.table[0].store(from);
         group.table[1].store(to);
@@ -309,22 +301,16 @@ impl LaneJudge<'_> {
         let h = all(simd, way.length_s);
         let [half, sixth] = [all(simd, 0.5), all(simd, 1.0 / 6.0)];
         // Δx and x̄.
-        let moved = inlined(
-            #[inline(always)]
-            |k: usize| {
-                let (mean, tilt) = (work.sums[k].load(simd), work.sums[d + k].load(simd));
-                [h * mean, h * (half * mean + sixth * tilt)]
-            },
-        );
+        let moved = inlined!(|k: usize| {
+            let (mean, tilt) = (work.sums[k].load(simd), work.sums[d + k].load(simd));
+            [h * mean, h * (half * mean + sixth * tilt)]
+        });
         // A load from one end to the other.
-        let exchanged = inlined(
-            #[inline(always)]
-            |load: usize, [moved, moment]: [f64x8<S>; 2]| {
-                let from = work.input[load].load(simd);
-                let to = work.input[load + 1].load(simd);
-                from * moved + (to - from) * moment
-            },
-        );
+        let exchanged = inlined!(|load: usize, [moved, moment]: [f64x8<S>; 2]| {
+            let from = work.input[load].load(simd);
+            let to = work.input[load + 1].load(simd);
+            from * moved + (to - from) * moment
+        });
         let (mut done, mut friction) = (all(simd, 0.0), all(simd, 0.0));
         for (k, &kg) in s.moved_kg.iter().enumerate() {
             done -= all(simd, kg) * exchanged(2 * d, moved(k));
@@ -339,12 +325,7 @@ impl LaneJudge<'_> {
             let terms = &work.sums[term * d..];
             let w = terms[0].load(simd);
             friction += all(simd, way.length_s / (2 * term + 1) as f64) * (drag * w * w);
-            let lost = self.dissipation(
-                simd,
-                w,
-                #[inline(always)]
-                |j| terms[1 + j].load(simd),
-            );
+            let lost = self.dissipation(simd, w, inlined!(|j: usize| terms[1 + j].load(simd)));
             damping += all(simd, 1.0 / (2 * term + 1) as f64) * lost;
         }
         let mut spent = Spent::default();
@@ -366,10 +347,7 @@ impl LaneJudge<'_> {
         (group, places, end): (&Group, &Places, usize),
     ) -> f64x8<S> {
         let (h, e) = (self.history, self.structure.contents.len());
-        let of = inlined(
-            #[inline(always)]
-            |list: &[f64], place: [usize; 2]| places.read(simd, list, end, place),
-        );
+        let of = inlined!(|list: &[f64], place: [usize; 2]| places.read(simd, list, end, place));
         match (i.checked_sub(1), sticks) {
             (None, true) => of(&h.friction_force_n, [1, 0]),
             (None, false) => group.sign.load(simd) * of(&h.sliding_velocity_m_per_s, [1, 0]),
@@ -389,10 +367,7 @@ impl LaneJudge<'_> {
         let s = self.structure;
         let place = (s.masses_kg.len(), s.degree_of(i));
         let sign = i.checked_sub(1).map_or(&group.sign, |i| &group.carried[i].sign).load(simd);
-        let [first, last] = both(
-            #[inline(always)]
-            |end| sign * self.stored_rate(simd, place, places, end),
-        );
+        let [first, last] = both!(|end| sign * self.stored_rate(simd, place, places, end));
         let zero = all(simd, 0.0);
         (first.simd_gt(zero) & last.simd_lt(zero)).to_bitmask()
     }
@@ -409,14 +384,8 @@ impl LaneJudge<'_> {
         work: &mut Work,
     ) -> u64 {
         let (s, deciding) = (self.structure, &way.deciding[i]);
-        let [from, to] = both(
-            #[inline(always)]
-            |end| self.decides(simd, i, deciding.sticks, (group, places, end)),
-        );
-        let pair = inlined(
-            #[inline(always)]
-            |pair: &[Eight; 2]| [pair[0].load(simd), pair[1].load(simd)],
-        );
+        let [from, to] = both!(|end| self.decides(simd, i, deciding.sticks, (group, places, end)));
+        let pair = inlined!(|pair: &[Eight; 2]| [pair[0].load(simd), pair[1].load(simd)]);
         let [hold, scale] = match i.checked_sub(1) {
             None => [pair(&group.hold), pair(&group.scale)],
             Some(i) => {
@@ -426,24 +395,21 @@ impl LaneJudge<'_> {
         };
         let [first, second] = pair(&group.normal);
         let normal = [smaller(first, second), larger(first, second)];
-        let reaches = inlined(
-            #[inline(always)]
-            |off: f64x8<S>| {
-                let (low, high) = (smaller(from, to) - off, larger(from, to) + off);
-                if !deciding.sticks {
-                    let clear = low.simd_ge(all(simd, floors.speeds[i]));
-                    let [slow, fast] = pair(&group.band);
-                    let within = low.simd_ge(slow) & high.simd_le(fast);
-                    return !if i == 0 { clear & within } else { clear }.to_bitmask();
-                }
-                // The largest ratio to N either way is that to the least N.
-                let zero = all(simd, 0.0);
-                let most = high / high.simd_gt(zero).select(normal[0], normal[1]);
-                let least = low / low.simd_lt(zero).select(normal[0], normal[1]);
-                let margin = smaller((hold[1] - most) * scale[1], (least - hold[0]) * scale[0]);
-                !margin.simd_ge(all(simd, floors.margin)).to_bitmask()
-            },
-        );
+        let reaches = inlined!(|off: f64x8<S>| {
+            let (low, high) = (smaller(from, to) - off, larger(from, to) + off);
+            if !deciding.sticks {
+                let clear = low.simd_ge(all(simd, floors.speeds[i]));
+                let [slow, fast] = pair(&group.band);
+                let within = low.simd_ge(slow) & high.simd_le(fast);
+                return !if i == 0 { clear & within } else { clear }.to_bitmask();
+            }
+            // The largest ratio to N either way is that to the least N.
+            let zero = all(simd, 0.0);
+            let most = high / high.simd_gt(zero).select(normal[0], normal[1]);
+            let least = low / low.simd_lt(zero).select(normal[0], normal[1]);
+            let margin = smaller((hold[1] - most) * scale[1], (least - hold[0]) * scale[0]);
+            !margin.simd_ge(all(simd, floors.margin)).to_bitmask()
+        });
         let lanes = (1 << LANES) - 1;
         let off = core::array::from_fn(|lane| deciding.off[places.knot(lane) / BATCH]);
         let turns = match !deciding.sticks && floors.drops[i] {

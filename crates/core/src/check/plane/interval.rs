@@ -49,14 +49,14 @@ enum Reach {
     Turn,
 }
 
-impl PlaneJudge<'_> {
+impl<'a> PlaneJudge<'a> {
     /// Judges the interval from a knot to the next.
     pub(super) fn interval(&mut self, k: usize) -> Result<(), Stopped> {
         let [from_s, end_s] = [self.h.time_s[k], self.h.time_s[k + 1]];
         let d = self.frame().degrees();
         let mut way = Way {
             knot: k,
-            state: self.stored(k),
+            state: self.state(k),
             fastest: vec![0.0; d],
             rates: vec![0.0; d],
             rested_s: None,
@@ -67,11 +67,12 @@ impl PlaneJudge<'_> {
         }
         let (mut at_s, mut drift) = (from_s, 0.0);
         while at_s < end_s {
-            let pieces = [0, 1].map(|axis| self.grounds[axis].piece(at_s, end_s));
+            let grounds = [&mut self.ground, &mut self.axes.ground_y];
+            let pieces = grounds.map(|ground| ground.piece(at_s, end_s));
             let to_s = pieces[0].to_s.min(pieces[1].to_s);
             let loads = [0, 1].map(|end| [0, 1].map(|axis| pieces[axis].loads[end]));
             if at_s == from_s {
-                if !self.grounds[0].is_at_sample(from_s) {
+                if !self.ground.is_at_sample(from_s) {
                     self.unsure_n = larger(self.unsure_n, self.rounding(&loads[0]));
                 }
                 let side = self.side(k, &loads[0], Place::Start);
@@ -98,7 +99,7 @@ impl PlaneJudge<'_> {
     fn normal_drift(&self, state: &State, loads: &Loads) -> f64 {
         let frame = self.frame();
         let per_n = frame.most + frame.curvature_per_m * norm([state.x[0], state.x[1]]);
-        per_n * loads[0].normal_rounding(self.grounds[0].blur())
+        per_n * loads[0].normal_rounding(self.ground.blur())
     }
 
     /// Compares the end of the way with what is stored there.
@@ -107,7 +108,7 @@ impl PlaneJudge<'_> {
         let length_s = self.h.time_s[k + 1] - self.h.time_s[k];
         let drift = drift_n / self.frame().least_kg() * length_s;
         let drift_m = 0.5 * length_s * drift;
-        let stored = self.stored(k + 1);
+        let stored = self.state(k + 1);
         let instant_s = self.instant_s;
         let f = &mut self.figures;
         for i in 0..way.fastest.len() {
@@ -119,8 +120,8 @@ impl PlaneJudge<'_> {
             f.velocity[1] = larger(f.velocity[1], way.fastest[i]);
         }
         self.drift = [self.drift[0].max(drift_m), self.drift[1].max(drift)];
-        self.arrived = norm(way.state.speed());
-        if self.grounds[0].has_vertical() {
+        self.axes.arrived = norm(way.state.speed());
+        if self.ground.has_vertical() {
             let speed: f64 = way.fastest.iter().sum();
             let moved = way.fastest[0].max(way.fastest[1]) * length_s;
             self.books.blur[k] += drift_n * moved + self.frame().total_kg * speed * drift;
@@ -154,12 +155,12 @@ impl PlaneJudge<'_> {
             let length_s = stretch.step_s / steps as f64;
             let part = stretch.part(j as f64 * length_s, length_s);
             self.pulse.beat(64 * self.frame().degrees() as u32)?;
-            let Some(step) = self.stepper.solve(&way.state, part, false) else {
+            let Some(step) = self.axes.stepper.solve(&way.state, part, false) else {
                 self.give_up();
                 return Ok(());
             };
             if way.rested_s.is_none() {
-                self.held(&step);
+                self.stays(&step);
             }
             self.follow(way, &step);
         }
@@ -180,7 +181,7 @@ impl PlaneJudge<'_> {
                 Reach::Free => left_s,
                 Reach::Within(reach_s) => reach_s,
                 Reach::Rest(rest_s) => {
-                    self.heading = unit(way.state.speed());
+                    self.axes.heading = unit(way.state.speed());
                     way.rested_s = Some(left_s - rest_s);
                     way.state.lose_speed(self.frame());
                     return self.rest(way, &stretch.part(t, left_s));
@@ -231,7 +232,7 @@ impl PlaneJudge<'_> {
         }
         loop {
             self.pulse.beat(256 + 64 * self.frame().degrees() as u32)?;
-            let step = self.stepper.solve(&way.state, stretch.part(t, step_s), true);
+            let step = self.axes.stepper.solve(&way.state, stretch.part(t, step_s), true);
             let fine = |step: &Step| step.tail <= TAIL && step.defect() <= self.bearable();
             if let Some(step) = step.filter(fine) {
                 return Ok(Some(step));
@@ -309,9 +310,9 @@ impl PlaneJudge<'_> {
         let (forces, floors) = self.forces(&way.state, loads);
         let acting =
             Acting { state: &way.state, loads: *loads, forces, floors: &floors, direction };
-        self.peaks.turn(&tracked, &acting, None, false);
+        self.axes.peaks.turn(&tracked, &acting, None, false);
         let holds = self.holds_only(&way.state, loads);
-        self.speed.feed(at_s, 0.0, || holds);
+        self.feed_speed(at_s, 0.0, |_| holds);
     }
 
     /// Nothing is known of the way: no figure holds.
@@ -321,7 +322,7 @@ impl PlaneJudge<'_> {
 
     /// Takes up a step: its end, energies, path, peaks.
     fn follow(&mut self, way: &mut Way, step: &Step) {
-        let (rule, frame) = (self.stepper.rule, self.stepper.frame);
+        let (rule, frame) = (self.axes.stepper.rule, self.axes.stepper.frame);
         let Stretch { from_s, step_s, .. } = step.stretch;
         let mut state = State::default();
         let follows = self.law.follows();
@@ -375,7 +376,7 @@ impl PlaneJudge<'_> {
             let (loads, direction) = (step.stretch.at(step_s), unit(way.state.speed()));
             let (forces, floors) = self.forces(&way.state, &loads);
             let acting = Acting { state: &way.state, loads, forces, floors: &floors, direction };
-            self.peaks.turn(&self.tracked(), &acting, None, false);
+            self.axes.peaks.turn(&self.tracked(), &acting, None, false);
         } else {
             self.look(step, 0);
         }
@@ -383,31 +384,31 @@ impl PlaneJudge<'_> {
 
     /// Whether a step is near rest in a slip that was straight when it came there.
     fn is_straight_near_rest(&mut self, step: &Step, quickest: f64) -> bool {
-        if !(step.slips && quickest < NEAR_REST * self.speed.peak()) {
-            self.near_rest = None;
+        if !(step.slips && quickest < NEAR_REST * self.dips[0].peak()) {
+            self.axes.near_rest = None;
             return false;
         }
-        if self.near_rest.is_none() {
+        if self.axes.near_rest.is_none() {
             let mut state = State::default();
             step.at_point(0, &mut state);
             let push = self.forces(&state, &step.stretch.loads[0]).0.push;
             let slowing = self.frame().slowing(&step.stretch.loads[0], norm(state.speed()));
-            self.near_rest = Some(self.is_straight(state.speed(), push, slowing));
+            self.axes.near_rest = Some(self.is_straight(state.speed(), push, slowing));
         }
-        self.near_rest == Some(true)
+        self.axes.near_rest == Some(true)
     }
 
     /// Keeps where `s` is at the printed time of its peak.
     fn see_peak_time(&mut self, step: &Step, (from_s, step_s): (f64, f64)) {
-        let at_s = self.given.response.demands.peak_sliding_displacement_time_s;
+        let at_s = self.response.demands.peak_sliding_displacement_time_s;
         if at_s < from_s - self.instant_s || at_s > from_s + step_s + self.instant_s {
             return;
         }
         let mut state = State::default();
-        self.stepper.at(step, ((at_s - from_s) / step_s).clamp(0.0, 1.0), &mut state);
+        self.axes.stepper.at(step, ((at_s - from_s) / step_s).clamp(0.0, 1.0), &mut state);
         let s = [state.x[0], state.x[1]];
-        if self.at_peak.is_none_or(|found| norm(s) > norm(found)) {
-            self.at_peak = Some(s);
+        if self.axes.at_peak.is_none_or(|found| norm(s) > norm(found)) {
+            self.axes.at_peak = Some(s);
         }
     }
 
@@ -415,14 +416,14 @@ impl PlaneJudge<'_> {
     fn look(&mut self, step: &Step, depth: u32) {
         let tracked = self.tracked();
         let coarse = step.tail > FINE && depth < DEEPEST;
-        if self.peaks.follow(self.stepper.rule, &tracked, step, coarse) {
+        if self.axes.peaks.follow(self.axes.stepper.rule, &tracked, step, coarse) {
             return;
         }
         let half_s = 0.5 * step.stretch.step_s;
         let mut state = State::default();
         step.at_point(0, &mut state);
         let halves = [0.0, half_s].map(|t| {
-            let half = self.stepper.solve(&state, step.stretch.part(t, half_s), step.slips);
+            let half = self.axes.stepper.solve(&state, step.stretch.part(t, half_s), step.slips);
             if let Some(half) = &half {
                 half.at_point(POINTS - 1, &mut state);
             }
@@ -434,7 +435,7 @@ impl PlaneJudge<'_> {
                 self.look(second, depth + 1);
             }
             _ => {
-                self.peaks.follow(self.stepper.rule, &tracked, step, false);
+                self.axes.peaks.follow(self.axes.stepper.rule, &tracked, step, false);
             }
         }
     }

@@ -1,69 +1,34 @@
-//! Goes through the knots of a history in a plane in order of time and keeps the worst of everything.
+//! What is judged in a plane: from knot to knot in order of time.
 
 use super::super::collocation::Rule;
-use super::super::demands::Totals;
+use super::super::demands::{Comparison, Rounding};
 use super::super::energy::Books;
-use super::super::events::Events;
-use super::super::ground::{Ground, Load};
-use super::super::judge::{Figures, STILL};
-use super::super::law::{Law, StickDemand};
-use super::super::near::Dips;
-use super::super::outputs::Outputs;
+use super::super::ground::{Ground, Load, nearest};
+use super::super::judge::{Directions, Given, Judge, Run, Sizes};
+use super::super::law::StickDemand;
 use super::super::structure::{excess, larger};
-use super::super::{Certificate, ClosestCall};
-use super::decisions::{Place, Speed, Turn};
+use super::super::{ClosestCall, DecisionKind};
+use super::decisions::{Minima, Place, REST, Turn};
 use super::frame::{Forces, Loads, Pair, PlaneFrame, norm, unit};
+use super::lists;
 use super::peaks::{Acting, Peaks, Tracked};
 use super::step::{State, Stepper};
 use crate::error::Stopped;
-use crate::model::Model;
-use crate::motion::GroundMotion;
-use crate::progress::Pulse;
-use crate::response::{Contact, History, HistoryAlongY, InPlane, Mode, Response};
+use crate::response::{HistoryAlongY, InPlane, Mode};
+use crate::slider::Direction;
 
-/// A history in a plane, and what it is of.
-#[derive(Clone, Copy)]
-pub(super) struct Given<'a> {
-    pub(super) model: &'a Model,
-    pub(super) motion: &'a GroundMotion,
-    /// `Ü` along y at the samples.
-    pub(super) table_y: &'a [f64],
-    pub(super) response: &'a Response,
-    pub(super) plane: &'a InPlane,
-    pub(super) h: &'a History,
+/// What a judgement in a plane needs besides.
+pub(super) struct Plane<'a> {
+    pub(super) printed: &'a InPlane,
     pub(super) along_y: &'a HistoryAlongY,
-}
-
-/// What is to be judged, and the worst of it so far.
-pub(super) struct PlaneJudge<'a> {
-    pub(super) given: Given<'a>,
-    pub(super) h: &'a History,
-    pub(super) law: &'a Law,
     pub(super) stepper: Stepper<'a>,
-    pub(super) outputs: &'a Outputs,
-    /// The table along x and along y.
-    pub(super) grounds: [Ground<'a>; 2],
-    /// Largest `N` and `|Ü|`.
-    pub(super) largest: (f64, f64),
-    /// Rounding of a time, and the velocity that the largest acceleration gives in it.
-    pub(super) instant_s: f64,
-    pub(super) jolt: f64,
-    /// What it makes of a force at an event at most.
-    pub(super) unsure_n: f64,
-    /// What the rounding of `N` makes of places and velocities in an interval.
-    pub(super) drift: [f64; 2],
-    pub(super) figures: Figures,
+    /// The table along y.
+    pub(super) ground_y: Ground<'a>,
     pub(super) peaks: Peaks,
-    pub(super) books: Books,
-    pub(super) totals: Totals,
-    pub(super) events: Events,
     /// What the events are in the plane, in their order.
     pub(super) turns: Vec<Turn>,
-    pub(super) closest: Option<ClosestCall>,
-    /// Margins of the stick under way.
-    pub(super) dips: Dips,
-    /// Speeds of the slip under way.
-    pub(super) speed: Speed,
+    /// Minima of the speed of the slip under way.
+    pub(super) minima: Minima,
     /// Least local minimum of the sliding speed.
     pub(super) least_speed: Option<f64>,
     /// Near rest, whether the slip was straight when it came there.
@@ -73,54 +38,44 @@ pub(super) struct PlaneJudge<'a> {
     pub(super) arrived: f64,
     /// Where `s` is at the printed time of its peak.
     pub(super) at_peak: Option<Pair>,
-    pub(super) pulse: Pulse<'a>,
 }
 
+/// A judgement in a plane.
+pub(super) type PlaneJudge<'a> = Judge<'a, Plane<'a>>;
+
 impl<'a> PlaneJudge<'a> {
-    pub(super) fn new(
+    /// A judgement of what is printed, and of its part along y.
+    pub(super) fn of_plane(
         given: Given<'a>,
-        (frame, law): (&'a PlaneFrame<'a>, &'a Law),
-        outputs: &'a Outputs,
-        pulse: Pulse<'a>,
+        (printed, along_y, table_y): (&'a InPlane, &'a HistoryAlongY, &'a [f64]),
+        frame: &'a PlaneFrame<'a>,
     ) -> Self {
-        let Given { model, motion, table_y, h, .. } = given;
-        let end_s = h.time_s.last().copied().unwrap_or(0.0);
-        let grounds = [motion.horizontal_m_per_s2(), table_y]
-            .map(|table| Ground::of(model, motion, table, end_s));
-        let [x, y] = [0, 1].map(|axis| grounds[axis].largest(end_s));
-        let tracked = Tracked { frame, outputs };
-        Self {
-            given,
-            h,
-            law,
+        let end_s = given.history.time_s.last().copied().unwrap_or(0.0);
+        let ground_y = Ground::of(given.model, given.motion, table_y, end_s);
+        let most_y = ground_y.largest(end_s).1;
+        let start = [given.model.initial(), &given.model.along_y().initial];
+        let slides = start.iter().any(|initial| initial.sliding_velocity_m_per_s != 0.0);
+        let plane = Plane {
+            printed,
+            along_y,
             stepper: Stepper { frame, rule: Rule::get() },
-            outputs,
-            largest: (x.0, x.1.max(y.1)),
-            grounds,
-            instant_s: 8.0 * f64::EPSILON * end_s,
-            jolt: 0.0,
-            unsure_n: 0.0,
-            drift: [0.0; 2],
-            figures: Figures::default(),
-            peaks: Peaks::new(&tracked),
-            books: Books::default(),
-            totals: Totals::new(1),
-            events: Events::default(),
+            ground_y,
+            peaks: Peaks::new(&Tracked { frame, outputs: given.outputs }),
             turns: Vec::new(),
-            closest: None,
-            dips: Dips::new(1e-12),
-            speed: Speed::new(0.0),
+            minima: Minima::default(),
             least_speed: None,
             near_rest: None,
             heading: None,
             arrived: 0.0,
             at_peak: None,
-            pulse,
-        }
+        };
+        let mut judge = Self::new(given, slides, plane);
+        judge.largest.1 = judge.largest.1.max(most_y);
+        judge
     }
 
     pub(super) fn frame(&self) -> &'a PlaneFrame<'a> {
-        self.stepper.frame
+        self.axes.stepper.frame
     }
 
     pub(super) fn tracked(&self) -> Tracked<'a> {
@@ -133,177 +88,44 @@ impl<'a> PlaneJudge<'a> {
     }
 
     /// The state stored at a knot.
-    pub(super) fn stored(&self, k: usize) -> State {
-        let (h, y, n) = (self.h, self.given.along_y, self.h.storeys);
-        let mut x = vec![h.sliding_displacement_m[k], y.sliding_displacement_m[k]];
-        let mut v = vec![h.sliding_velocity_m_per_s[k], y.sliding_velocity_m_per_s[k]];
-        if self.frame().points.is_some() {
-            x.extend(h.storey_displacements(k));
-            v.extend(h.storey_velocities(k));
-            return State { x, v };
-        }
-        for i in k * n..(k + 1) * n {
-            x.extend([h.storey_displacement_m[i], y.storey_displacement_m[i]]);
-            v.extend([h.storey_velocity_m_per_s[i], y.storey_velocity_m_per_s[i]]);
-        }
+    pub(super) fn state(&self, k: usize) -> State {
+        let states = (0..self.frame().degrees()).map(|degree| self.stored(k, degree));
+        let (x, v) = states.map(|[x, v]| (x, v)).unzip();
         State { x, v }
     }
 
     /// `s` at a knot.
     pub(super) fn place(&self, k: usize) -> Pair {
-        [self.h.sliding_displacement_m[k], self.given.along_y.sliding_displacement_m[k]]
+        [self.h.sliding_displacement_m[k], self.axes.along_y.sliding_displacement_m[k]]
     }
 
-    /// Judges everything; `None` where something stored is not finite.
-    pub(super) fn run(mut self, bound: f64) -> Result<Option<Certificate>, Stopped> {
-        if !self.measure() {
-            return Ok(None);
-        }
-        self.go_through()?;
-        Ok(Some(self.certificate(bound)))
-    }
-
-    /// Goes through all knots.
-    pub(super) fn go_through(&mut self) -> Result<(), Stopped> {
-        let (h, last) = (self.h, self.h.len() - 1);
-        let initial = self.initial();
-        self.compare(0, &initial, [0.0; 2]);
-        let slides = norm(initial.speed()) > 0.0;
-        let at_start = if slides { self.mode(0) } else { Mode::Stick };
-        self.events.begin(h, &[at_start], Contact::Free);
-        if at_start != self.mode(0) {
-            self.change(0, at_start);
-        }
-        self.begin(self.mode(0));
-        for k in 0..last {
-            let length_s = h.time_s[k + 1] - h.time_s[k];
-            if length_s > 0.0 {
-                self.interval(k)?;
-                self.totals.add(h.modes(k), Contact::Free, length_s, false);
-            } else {
-                if k == 0 || h.time_s[k - 1] == h.time_s[k] {
-                    self.alone(k);
-                }
-                let before = self.stored(k);
-                self.compare(k + 1, &before, [0.0, self.jolt]);
-                self.turn_between(k);
-            }
-            let (before, after) = (self.mode(k), self.mode(k + 1));
-            if before != after {
-                self.close(before);
-                self.events.pass(h, k + 1, false);
-                self.change(k + 1, before);
-                self.begin(after);
-            }
-        }
-        if last == 0 || h.time_s[last - 1] == h.time_s[last] {
-            self.alone(last);
-        }
-        self.close(self.mode(last));
-        Ok(())
-    }
-
-    /// Scales and energies from the knots; whether all is finite.
-    pub(super) fn measure(&mut self) -> bool {
-        let (h, y) = (self.h, self.given.along_y);
-        let lists = [
-            &h.friction_force_n,
-            &h.block_acceleration_m_per_s2,
-            &h.table_acceleration_m_per_s2,
-            &h.storey_acceleration_m_per_s2,
-            &y.friction_force_n,
-            &y.block_acceleration_m_per_s2,
-            &y.table_acceleration_m_per_s2,
-            &y.storey_acceleration_m_per_s2,
+    /// All that the table does at the time of a knot, and how far each is off what is stored there.
+    pub(super) fn loads_of(&self, k: usize) -> ([Loads; 4], [f64; 4]) {
+        let all = self.instant(self.h.time_s[k]);
+        let own = [
+            self.h.table_acceleration_m_per_s2[k],
+            self.axes.along_y.table_acceleration_m_per_s2[k],
         ];
-        let mut finite = lists.into_iter().flatten().all(|value| value.is_finite());
-        let (mut kinetic, mut strain) = (Vec::new(), Vec::new());
-        let (mut far, mut fast, mut storey, mut sliding) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
-        for k in 0..h.len() {
-            let state = self.stored(k);
-            finite &= state.x.iter().chain(&state.v).all(|value| value.is_finite());
-            let most = |list: &[f64]| list.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-            far = far.max(most(&state.x));
-            storey = storey.max(most(&state.x[2..]));
-            fast = fast.max(most(&state.v));
-            sliding = sliding.max(norm(state.speed()));
-            kinetic.push(self.frame().kinetic_energy(&state.v));
-            strain.push(self.frame().strain(&state.x));
-        }
-        let blocks = h.block_acceleration_m_per_s2.iter().chain(&y.block_acceleration_m_per_s2);
-        let sharp = blocks.fold(self.largest.1, |most: f64, b| most.max(b.abs()));
-        self.jolt = self.instant_s * sharp;
-        let rest = 1e-4 * self.frame().frequency * storey;
-        self.figures.displacement[1] = far.max(self.instant_s * self.jolt);
-        self.figures.velocity[1] = fast.max(rest).max(self.jolt);
-        self.speed = Speed::new(STILL * sliding + 64.0 * f64::EPSILON * fast);
-        let varies = self.grounds[0].has_vertical();
-        self.books = Books::new([kinetic, strain], 0.0, [varies, self.law.follows()]);
-        finite
-    }
-
-    /// The state with which the model starts.
-    pub(super) fn initial(&self) -> State {
-        let model = self.given.model;
-        let along_y = model.along_y();
-        let (x, y, n) = (model.initial(), along_y.initial, model.storeys());
-        let or_zeros = |list: Option<Vec<f64>>| list.unwrap_or_else(|| vec![0.0; n]);
-        let pairs = |x: f64, y: f64, storeys: [Vec<f64>; 2]| {
-            let mut list = vec![x, y];
-            let [x, y] = storeys;
-            list.extend(x.into_iter().zip(y).flat_map(|(x, y)| [x, y]));
-            list
-        };
-        if self.frame().points.is_some() {
-            let of = |x: f64, y: f64, parts: Option<Vec<f64>>| {
-                let zeros = || vec![0.0; self.frame().masses_kg.len()];
-                [vec![x, y], parts.unwrap_or_else(zeros)].concat()
-            };
-            let [s, w] = [
-                [x.sliding_displacement_m, y.sliding_displacement_m],
-                [x.sliding_velocity_m_per_s, y.sliding_velocity_m_per_s],
-            ];
-            return State {
-                x: of(s[0], s[1], y.storey_displacement_m),
-                v: of(w[0], w[1], y.storey_velocity_m_per_s),
-            };
-        }
-        let q = [model.initial_storey_displacement_m(), or_zeros(y.storey_displacement_m)];
-        let v = [model.initial_storey_velocity_m_per_s(), or_zeros(y.storey_velocity_m_per_s)];
-        State {
-            x: pairs(x.sliding_displacement_m, y.sliding_displacement_m, q),
-            v: pairs(x.sliding_velocity_m_per_s, y.sliding_velocity_m_per_s, v),
-        }
-    }
-
-    /// Compares the state stored at a knot with another, less what is rounding of it.
-    pub(super) fn compare(&mut self, k: usize, own: &State, rounding: [f64; 2]) {
-        let stored = self.stored(k);
-        let lists = [(&own.x, &stored.x), (&own.v, &stored.v)];
-        let figures = [&mut self.figures.displacement, &mut self.figures.velocity];
-        for ((figure, (own, stored)), rounding) in figures.into_iter().zip(lists).zip(rounding) {
-            for (own, stored) in own.iter().zip(stored) {
-                figure[0] = larger(figure[0], excess((own - stored).abs() - rounding));
-            }
-        }
+        let off = all.map(|loads| norm([0, 1].map(|axis| loads[axis].table - own[axis])));
+        (all, off)
     }
 
     /// All that the table does at one instant, from left to right.
     pub(super) fn instant(&self, t: f64) -> [Loads; 4] {
-        let [x, y] = [0, 1].map(|axis| self.grounds[axis].instant(t));
+        let [x, y] = [&self.ground, &self.axes.ground_y].map(|ground| ground.instant(t));
         core::array::from_fn(|i| [x[i], y[i]])
     }
 
-    /// What a block at rest is asked for, and the rounding of it.
+    /// What a block at rest is asked for, and the rounding of it. All slips are called positive: `T = −|p| M1`.
     pub(super) fn asked(&self, push: Pair, loads: &Loads) -> (StickDemand, f64) {
-        let high = self.frame().fixed * loads[0].normal;
-        let demand = StickDemand { demand: self.frame().block_kg * norm(push), low: -high, high };
-        (demand, self.rounding(loads))
+        let (demand, high) =
+            (-self.frame().block_kg * norm(push), self.frame().fixed * loads[0].normal);
+        (StickDemand { demand, low: -high, high }, self.rounding(loads))
     }
 
     /// What the rounding of times makes of what a block at rest is asked for, less what holds it.
     pub(super) fn rounding(&self, loads: &Loads) -> f64 {
-        let blur = self.grounds[0].blur();
+        let blur = self.ground.blur();
         let table = |load: &Load, mu| load.rounding(blur, self.frame().block_kg, mu);
         table(&loads[0], self.frame().fixed) + table(&loads[1], 0.0)
     }
@@ -319,8 +141,8 @@ impl<'a> PlaneJudge<'a> {
     /// law of friction, the balance of forces. At the start of a slip from rest friction is against the
     /// push, at its end it has any direction.
     pub(super) fn side(&self, k: usize, loads: &Loads, place: Place) -> Side {
-        let (h, y, frame) = (self.h, self.given.along_y, self.frame());
-        let state = self.stored(k);
+        let (h, y, frame) = (self.h, self.axes.along_y, self.frame());
+        let state = self.state(k);
         let (forces, floors) = self.forces(&state, loads);
         let at = |x: &[f64], y: &[f64], i: usize| [x[i], y[i]];
         let own = at(&h.table_acceleration_m_per_s2, &y.table_acceleration_m_per_s2, k);
@@ -331,7 +153,7 @@ impl<'a> PlaneJudge<'a> {
             let off = (load.table - own).abs() - self.instant_s * load.slope.abs();
             side.table = larger(side.table, excess(off));
         }
-        let normal_n = loads[0].normal_rounding(self.grounds[0].blur());
+        let normal_n = loads[0].normal_rounding(self.ground.blur());
         let follows_n = frame.curvature_per_m * normal_n * norm([state.x[0], state.x[1]]);
         if self.mode(k) == Mode::Stick {
             side.speed = norm(state.speed());
@@ -377,8 +199,92 @@ impl<'a> PlaneJudge<'a> {
         f.force[0] = larger(f.force[0], side.defect);
         f.force[1] = larger(f.force[1], side.term);
     }
+}
 
-    /// Judges a knot at which no interval ends or begins by the load that suits it best.
+impl Directions for PlaneJudge<'_> {
+    fn degrees(&self) -> usize {
+        self.frame().degrees()
+    }
+
+    fn stored(&self, k: usize, degree: usize) -> [f64; 2] {
+        let lists = lists(self.h, self.axes.along_y);
+        let by_modes = self.frame().points.is_some();
+        let list = lists[if by_modes && degree >= 2 { 0 } else { degree % 2 }];
+        match degree.checked_sub(2) {
+            None => [list[1][k], list[2][k]],
+            Some(i) => {
+                let storey = if by_modes { i } else { i / 2 };
+                [list[5], list[6]].map(|list| list[k * self.h.storeys + storey])
+            }
+        }
+    }
+
+    fn initial(&self, degree: usize) -> [f64; 2] {
+        let (model, y) = (self.model, &self.model.along_y().initial);
+        let of_y = |part: usize| {
+            let given = [&y.storey_displacement_m, &y.storey_velocity_m_per_s];
+            given.map(|list| list.as_ref().map_or(0.0, |list| list[part]))
+        };
+        match degree.checked_sub(2) {
+            None => {
+                let initial = if degree == 0 { model.initial() } else { y };
+                [initial.sliding_displacement_m, initial.sliding_velocity_m_per_s]
+            }
+            Some(i) if self.frame().points.is_some() => of_y(i),
+            Some(i) if i % 2 == 1 => of_y(i / 2),
+            Some(i) => {
+                [model.initial_storey_displacement_m(), model.initial_storey_velocity_m_per_s()]
+                    .map(|list| list[i / 2])
+            }
+        }
+    }
+
+    fn speed_at(&self, k: usize, _: usize) -> f64 {
+        norm([0, 1].map(|axis| self.stored(k, axis)[1]))
+    }
+
+    fn measure(&mut self) -> Result<bool, Stopped> {
+        let lists = lists(self.h, self.axes.along_y);
+        let finite = lists.iter().flatten().copied().flatten().all(|value| value.is_finite());
+        let most = |list: &[f64]| list.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let mut sizes = Sizes {
+            acceleration: lists.iter().fold(self.largest.1, |a, list| a.max(most(list[3]))),
+            frequency: self.frame().frequency,
+            ..Sizes::default()
+        };
+        let (mut kinetic, mut strain) = (Vec::new(), Vec::new());
+        for k in 0..self.h.len() {
+            let state = self.state(k);
+            sizes.displacement_m = sizes.displacement_m.max(most(&state.x));
+            sizes.storey_m = sizes.storey_m.max(most(&state.x[2..]));
+            sizes.velocity = sizes.velocity.max(most(&state.v));
+            sizes.sliding = sizes.sliding.max(norm(state.speed()));
+            kinetic.push(self.frame().kinetic_energy(&state.v));
+            strain.push(self.frame().strain(&state.x));
+        }
+        self.take_sizes(&sizes);
+        let varies = self.ground.has_vertical();
+        self.books = Books::new([kinetic, strain], 0.0, [varies, self.law.follows()]);
+        Ok(finite)
+    }
+
+    fn decide(&mut self, changes: &[usize]) {
+        for &k in changes {
+            let (all, off) = self.loads_of(k);
+            let state = self.state(k);
+            let found = self.weigh((k, 0), nearest(off), 1, |load, _| {
+                let push = self.forces(&state, &all[load]).0.push;
+                self.asked(push, &all[load])
+            });
+            self.decided((k, 0), found);
+        }
+    }
+
+    fn go_through(&mut self, run: Run) -> Result<(), Stopped> {
+        (run.from..run.to).try_for_each(|k| self.interval(k))
+    }
+
+    /// By the load that suits it best.
     fn alone(&mut self, k: usize) {
         let all = self.instant(self.h.time_s[k]);
         let sides = all.map(|loads| self.side(k, &loads, Place::Alone));
@@ -387,7 +293,7 @@ impl<'a> PlaneJudge<'a> {
         let best = (1..4).fold(0, better);
         self.take(&sides[best]);
         if k == 0 || k + 1 == self.h.len() {
-            let state = self.stored(k);
+            let state = self.state(k);
             let loads = all[if k == 0 { 1 } else { 2 }];
             let (forces, floors) = self.forces(&state, &loads);
             let slips = self.mode(k) != Mode::Stick;
@@ -397,16 +303,46 @@ impl<'a> PlaneJudge<'a> {
             };
             let direction = unit(state.speed()).or_else(departs).filter(|_| slips);
             let acting = Acting { state: &state, loads, forces, floors: &floors, direction };
-            self.peaks.see(&self.tracked(), &acting);
+            self.axes.peaks.see(&self.tracked(), &acting);
         }
     }
 
-    /// Keeps the least margin; rounding may leave one a little below 0.
-    pub(super) fn nearest(&mut self, call: ClosestCall) {
-        let call = ClosestCall { margin: call.margin.abs(), ..call };
-        if self.closest.is_none_or(|closest| call.margin < closest.margin) {
-            self.closest = Some(call);
+    fn abreast(&mut self, k: usize) -> bool {
+        for degree in 0..self.frame().degrees() {
+            let before = self.stored(k - 1, degree);
+            self.compare(k, degree, before, [0.0, self.jolt]);
         }
+        self.turn_between(k - 1);
+        false
+    }
+
+    fn slipped(&mut self, _: usize, _: Direction, _: usize) -> Option<ClosestCall> {
+        let (minimum, peak) = (self.dips[0].so_far(), self.dips[0].peak());
+        if minimum.is_finite() {
+            let least = &mut self.axes.least_speed;
+            *least = Some(least.map_or(minimum, |least| least.min(minimum)));
+        }
+        let (least, time_s) = self.axes.minima.least?;
+        if least <= 0.5 * REST * peak {
+            // It came to rest, was held, and slides on.
+            let off = (self.frame().fixed - self.law.kinetic_at(0.0)[0]) * self.largest.0;
+            self.figures.excess = larger(self.figures.excess, off);
+        }
+        Some(ClosestCall { margin: least / peak, time_s, kind: DecisionKind::Slip, interface: 0 })
+    }
+
+    fn changed(&mut self, k: usize) {
+        self.turn(k);
+    }
+
+    fn begins(&mut self, _: usize, _: usize) {
+        let plane = &mut self.axes;
+        (plane.minima, plane.near_rest) = (Minima::default(), None);
+        (plane.heading, plane.arrived) = (None, 0.0);
+    }
+
+    fn compare_demands(&self, c: &mut Comparison, rounding: &Rounding) {
+        self.compare_printed(c, rounding);
     }
 }
 

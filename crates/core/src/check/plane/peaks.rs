@@ -3,10 +3,9 @@
 //! In a step whose last Legendre coefficients are rounding all outputs are polynomials as good as the motion.
 
 use super::super::collocation::{POINTS, Rule};
-use super::super::outputs::{
-    BASE_SHEAR, BLOCK, FRICTION, OVERTURNING, Outputs, SLIDER, STOREYS, VELOCITY,
-};
+use super::super::outputs::{BLOCK, FRICTION, OVERTURNING, Outputs, SLIDER, STOREYS};
 use super::super::structure::larger;
+use super::body::PointOfModes;
 use super::frame::{Forces, Loads, Pair, PlaneFrame, cross, dot, norm, table, times, unit};
 use super::step::{State, Step};
 
@@ -63,47 +62,29 @@ impl Tracked<'_> {
 
     fn vectors(&self, acting: &Acting<'_>, out: &mut Vec<Pair>) {
         let (frame, State { x, v }) = (self.frame, acting.state);
-        let n = self.outputs.points();
         out.clear();
         out.resize(self.len(), [0.0; 2]);
         let [block, slider, friction] = acting.on_block(frame);
-        out[VELOCITY] = [v[0], v[1]];
-        out[BLOCK] = block;
-        out[SLIDER] = slider;
-        out[FRICTION] = friction;
-        out[BASE_SHEAR] = acting.forces.base;
-        out[self.outputs.len()] = [x[0], x[1]];
-        if let Some(points) = &frame.points {
-            let of_part = |j: usize| -acting.floors[j] / frame.masses_kg[j];
-            let mut below = [0.0; 2];
-            let mut accelerations = Vec::with_capacity(n);
-            for (i, point) in points.iter().enumerate() {
-                let q = point.vector(|j| x[2 + j], [0.0; 2]);
-                let acceleration = point.vector(of_part, block);
-                out[STOREYS + i] = q;
-                out[STOREYS + n + i] = [q[0] - below[0], q[1] - below[1]];
-                out[STOREYS + 2 * n + i] = acceleration;
-                accelerations.push(acceleration);
-                below = q;
-            }
-            for axis in 0..2 {
-                let moment = self.outputs.plain_moment(block[axis], |i| accelerations[i][axis]);
-                out[OVERTURNING][axis] = moment;
-            }
-            return;
-        }
+        let of_part = |j: usize| -acting.floors[j] / frame.masses_kg[j];
+        let by_modes = frame.points.as_ref().map(|points| {
+            let of = |point: &PointOfModes| {
+                [point.vector(|j| x[2 + j], [0.0; 2]), point.vector(of_part, block)]
+            };
+            points.iter().map(of).collect::<Vec<[Pair; 2]>>()
+        });
         for axis in 0..2 {
-            let floor = |i: usize| -acting.floors[2 * i + axis] / frame.masses_kg[2 * i + axis];
-            out[OVERTURNING][axis] = self.outputs.plain_moment(block[axis], floor);
-            let mut below = 0.0;
-            for i in 0..n {
-                let q = x[2 + 2 * i + axis];
-                out[STOREYS + i][axis] = q;
-                out[STOREYS + n + i][axis] = q - below;
-                out[STOREYS + 2 * n + i][axis] = floor(i);
-                below = q;
-            }
+            self.outputs.each(
+                [v[axis], slider[axis], friction[axis], acting.forces.base[axis], 0.0],
+                (0.0, block[axis]),
+                |i| match &by_modes {
+                    Some(points) => points[i].map(|vector| vector[axis]),
+                    None => [x[2 + 2 * i + axis], of_part(2 * i + axis)],
+                },
+                |_| [0.0; 2],
+                |g, value| out[g][axis] = value,
+            );
         }
+        out[self.outputs.len()] = [x[0], x[1]];
     }
 
     /// Vectors at a point of a step.

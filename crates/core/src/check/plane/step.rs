@@ -94,6 +94,9 @@ impl Step {
 
     /// The state at a part of the step.
     pub(super) fn at(&self, rule: &Rule, part: f64, state: &mut State) {
+        if let Some(point) = rule.points.iter().position(|point| *point == part) {
+            return self.at_point(point, state);
+        }
         for (to, from) in [(&mut state.x, &self.x), (&mut state.v, &self.v)] {
             to.clear();
             to.extend(from.iter().map(|values| rule.interpolate(values, part)));

@@ -3,6 +3,7 @@
 use super::super::structure::larger;
 use super::super::{Certificate, check_while};
 use super::frame::Pair;
+use super::lists;
 use crate::error::Stopped;
 use crate::model::{InitialState, Model};
 use crate::motion::GroundMotion;
@@ -43,11 +44,8 @@ pub(super) fn check(
     axis: usize,
     go_on: GoOn<'_>,
 ) -> Result<Certificate, Stopped> {
-    let (still, history) = if axis == 0 {
-        (lists_of_y(y), h.clone())
-    } else {
-        (lists_of(h), along_y(response, plane, h, y))
-    };
+    let history = if axis == 0 { h.clone() } else { along_y(response, plane, h, y) };
+    let lists = lists(h, y);
     let mut own = Response { history: Some(history.clone()), in_plane: None, ..response.clone() };
     let (model, motion) = if axis == 0 {
         (model.clone(), motion.along_x())
@@ -61,7 +59,7 @@ pub(super) fn check(
     };
     let mut certificate = check_while(&model, &motion, &own, go_on)?;
     // What stands still is 0.
-    for (still, moves) in still.into_iter().zip(lists_of(&history)) {
+    for (still, moves) in lists[1 - axis].into_iter().zip(lists[axis]) {
         let most = |list: &[f64]| list.iter().fold(0.0, |most, value| larger(most, *value));
         let off = most(still);
         if off > 0.0 {
@@ -153,32 +151,4 @@ fn along_y(response: &Response, plane: &InPlane, h: &History, y: &HistoryAlongY)
         storey_acceleration_m_per_s2: y.storey_acceleration_m_per_s2.clone(),
         ..h.clone()
     }
-}
-
-/// All that is along one axis, knot by knot.
-fn lists_of(h: &History) -> [&[f64]; 8] {
-    [
-        &h.table_acceleration_m_per_s2,
-        &h.sliding_displacement_m,
-        &h.sliding_velocity_m_per_s,
-        &h.block_acceleration_m_per_s2,
-        &h.friction_force_n,
-        &h.storey_displacement_m,
-        &h.storey_velocity_m_per_s,
-        &h.storey_acceleration_m_per_s2,
-    ]
-}
-
-/// The same along y.
-fn lists_of_y(y: &HistoryAlongY) -> [&[f64]; 8] {
-    [
-        &y.table_acceleration_m_per_s2,
-        &y.sliding_displacement_m,
-        &y.sliding_velocity_m_per_s,
-        &y.block_acceleration_m_per_s2,
-        &y.friction_force_n,
-        &y.storey_displacement_m,
-        &y.storey_velocity_m_per_s,
-        &y.storey_acceleration_m_per_s2,
-    ]
 }

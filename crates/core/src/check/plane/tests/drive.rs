@@ -5,6 +5,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::super::super::collocation::{POINTS, Rule};
+use super::super::super::judge::Directions;
 use super::super::super::outputs::{BASE_SHEAR, BLOCK, FRICTION, SLIDER, STOREYS, VELOCITY};
 use super::super::decisions::Turn;
 use super::super::frame::{Loads, Pair, dot, norm, times, unit};
@@ -349,20 +350,21 @@ pub(super) fn with_judge<T>(
 ) -> T {
     let parts = parts(system);
     let frame = parts.frame(system);
-    let plane = response.in_plane.as_deref().unwrap();
+    let printed = response.in_plane.as_deref().unwrap();
     let given = Given {
         model: &system.model,
         motion: &system.motion,
-        table_y: system.motion.horizontal_y_m_per_s2().unwrap(),
         response,
-        plane,
-        h: response.history.as_ref().unwrap(),
-        along_y: plane.history.as_ref().unwrap(),
+        history: response.history.as_ref().unwrap(),
+        law: &parts.law,
+        outputs: &parts.outputs,
+        pulse: Pulse::new(crate::progress::UNWATCHED),
     };
-    let pulse = Pulse::new(crate::progress::UNWATCHED);
-    let mut judge = PlaneJudge::new(given, (&frame, &parts.law), &parts.outputs, pulse);
-    assert!(judge.measure());
-    judge.go_through().unwrap();
+    let table_y = system.motion.horizontal_y_m_per_s2().unwrap();
+    let along_y = printed.history.as_ref().unwrap();
+    let mut judge = PlaneJudge::of_plane(given, (printed, along_y, table_y), &frame);
+    assert!(judge.measure().unwrap());
+    judge.go_on().unwrap();
     tell(&judge)
 }
 
@@ -370,7 +372,7 @@ pub(super) fn with_judge<T>(
 fn printed(system: &System, response: Response) -> Response {
     let (mut demands, mut plane) = with_judge(system, &response, |judge| {
         let of = |view: usize| {
-            let peak = &judge.peaks.largest[view];
+            let peak = &judge.axes.peaks.largest[view];
             let (model, n) = (&system.model, system.model.storeys());
             let storey = |i: usize| StoreyDemands {
                 peak_acceleration_m_per_s2: peak[STOREYS + 2 * n + i],
@@ -395,7 +397,7 @@ fn printed(system: &System, response: Response) -> Response {
         };
         let [mut root, mut x, mut y] = [of(0), of(1), of(2)];
         let last = judge.place(judge.h.len() - 1);
-        let [most_x, least_x, most_y, least_y] = judge.peaks.sides_m;
+        let [most_x, least_x, most_y, least_y] = judge.axes.peaks.sides_m;
         x.max_sliding_displacement_m = most_x;
         x.min_sliding_displacement_m = -least_x;
         y.max_sliding_displacement_m = most_y;
@@ -421,8 +423,8 @@ fn printed(system: &System, response: Response) -> Response {
         let plane = InPlane {
             axes: [x, y],
             peak_sliding_displacement_direction_rad: 0.0,
-            least_sliding_speed_m_per_s: judge.least_speed,
-            events: judge.turns.iter().map(event).collect(),
+            least_sliding_speed_m_per_s: judge.axes.least_speed,
+            events: judge.axes.turns.iter().map(event).collect(),
             history: None,
         };
         (root, plane)
@@ -432,7 +434,7 @@ fn printed(system: &System, response: Response) -> Response {
     let mut asked = response.clone();
     let mut at = |at_s: f64| {
         asked.demands.peak_sliding_displacement_time_s = at_s;
-        with_judge(system, &asked, |judge| judge.at_peak.unwrap_or([0.0; 2]))
+        with_judge(system, &asked, |judge| judge.axes.at_peak.unwrap_or([0.0; 2]))
     };
     let at_s = system.peak_s.unwrap_or_else(|| {
         let times_s = &response.history.as_ref().unwrap().time_s;
