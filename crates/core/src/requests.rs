@@ -199,17 +199,17 @@ impl Request {
         })
     }
 
-    /// The suite whose pairs move the table in two horizontal directions and the model under them; none where
-    /// there are no pairs, or where they are asked for separately.
+    /// The suite whose pairs move the table in two horizontal directions and the model under them, or where they
+    /// are asked for separately that of their components; none where that is the suite as it is.
     pub(super) fn together(
         &self,
         on: &On<'_>,
     ) -> Result<Option<(Analysis, Suite)>, AssessmentError> {
-        if !on.suite.has_pairs() || self.one("pairs") == "separate" {
-            if !on.suite.in_plane() {
-                on.analysis.along_x_alone()?;
-            }
-            return Ok(None);
+        let separate = self.one("pairs") == "separate";
+        if separate || !(on.suite.has_pairs() || on.suite.in_plane()) {
+            on.analysis.along_x_alone()?;
+            let split = separate && on.suite.in_plane();
+            return Ok(split.then(|| (on.analysis.clone(), on.suite.apart())));
         }
         let suite = on.suite.together().map_err(|error| {
             refuse("second", "components whose samples make one motion", error.to_string())
