@@ -31,6 +31,7 @@ mod structure;
 #[cfg(test)]
 mod tests;
 mod tree;
+pub mod unfit;
 mod variation;
 mod write;
 

@@ -31,7 +31,7 @@ use crate::assessment::spectrum::{SpectrumRequest, SpectrumRun, run_spectrum};
 use crate::assessment::suite::{Recorded, Suite};
 use crate::assessment::{AssessmentError, refuse};
 use crate::error::{ChoiceError, MeasureError};
-use crate::input::{Analysis, Bound, FrictionBounds, Override, dimension_of};
+use crate::input::{Analysis, Bound, FrictionBounds, Input, Override, dimension_of};
 use crate::motion::intensity::LevelMeasure;
 use crate::notice::Notice;
 use crate::response::DemandColumn;
@@ -199,17 +199,17 @@ impl Request {
         })
     }
 
-    /// The suite whose pairs move the table in two horizontal directions and the model under them; none where
-    /// there are no pairs, or where they are asked for separately.
+    /// The suite whose pairs move the table in two horizontal directions and the model under them, or where they
+    /// are asked for separately that of their components; none where that is the suite as it is.
     pub(super) fn together(
         &self,
         on: &On<'_>,
     ) -> Result<Option<(Analysis, Suite)>, AssessmentError> {
-        if !on.suite.has_pairs() || self.one("pairs") == "separate" {
-            if !on.suite.in_plane() {
-                on.analysis.along_x_alone()?;
-            }
-            return Ok(None);
+        let separate = self.one("pairs") == "separate";
+        if separate || !(on.suite.has_pairs() || on.suite.in_plane()) {
+            on.analysis.along_x_alone()?;
+            let split = separate && on.suite.in_plane();
+            return Ok(split.then(|| (on.analysis.clone(), on.suite.apart())));
         }
         let suite = on.suite.together().map_err(|error| {
             refuse("second", "components whose samples make one motion", error.to_string())
@@ -300,7 +300,11 @@ impl Request {
         engine: &Engine<'_>,
     ) -> Result<(Results, String), AssessmentError> {
         let mut varied = Vec::new();
-        for path in self.listed("paths") {
+        let mut paths = self.listed("paths");
+        if paths.is_empty() {
+            paths = moving(on.analysis);
+        }
+        for path in paths {
             let unit = dimension_of(path)?.map_or("", Dimension::si_unit);
             let Some(value) = on.analysis.value(path) else {
                 let found = format!("{path:?}, of which the model says nothing");
@@ -499,4 +503,44 @@ fn limit(what: &str, text: &str, demand: &str) -> Result<f64, AssessmentError> {
         None => text.trim().parse().map_err(|_| refused("a number"))?,
     };
     if value.is_finite() && value > 0.0 { Ok(value) } else { Err(refused("a limit > 0")) }
+}
+/// Keys of slider, block and structure that move what is built of them, each by itself: numbers other than 0, and no
+/// names, sizes for ratios, or bounds.
+fn moving(analysis: &Analysis) -> Vec<&str> {
+    const BUILT: [&str; 6] = ["slider", "block", "storey", "frame", "structure", "contents"];
+    const BESIDE: [&str; 4] =
+        ["slider.gap", "slider.bounds.", "structure.mode.", "structure.point."];
+    const SIZES: [&str; 3] = [".width", ".height", ".floor"];
+    // The ratios of many storeys are one value.
+    let several = analysis.model.storeys() > 1;
+    let moves = |Input { path, value, .. }: &Input<'_>| {
+        let beside = BESIDE.iter().any(|beside| path.starts_with(beside))
+            || SIZES.iter().any(|size| path.ends_with(size))
+            || several && path.starts_with("storey.") && path.ends_with(".damping_ratio");
+        let built = BUILT.contains(&path.split('.').next().unwrap_or_default());
+        built && !beside && value.is_some_and(|value| value != 0.0)
+    };
+    analysis.inputs().filter(moves).map(|input| input.path).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_moves_the_demands_is_derived_where_no_key_is_named() {
+        let text = include_str!("../../../examples/frame-pendulum.toml");
+        let analysis = crate::input::parse("model.toml", text, &[]).unwrap();
+        let paths = moving(&analysis);
+        let first =
+            ["block.mass", "slider.static_friction", "slider.kinetic_friction", "slider.radius"];
+        assert_eq!(paths[..4], first);
+        assert!(paths.contains(&"frame.period") && paths.contains(&"storey.5.mass"), "{paths:?}");
+        let beside = |path: &&str| {
+            ["bounds", "height", "damping"].iter().any(|part| path.contains(part))
+                || path.starts_with("motion")
+        };
+        assert!(!paths.iter().any(beside), "{paths:?}");
+        assert!(!paths.contains(&"slider.gap"));
+    }
 }

@@ -125,29 +125,17 @@ pub(crate) fn read_suite(
 /// Records by their names.
 type Named = Vec<(String, Motion)>;
 
-/// The suite of records, of pairs with their other components; perhaps of motions in two directions.
-fn suite_of(py: Python<'_>, records: Named, second: Named, planar: bool) -> PyResult<Suite> {
+/// The suite of records, of pairs with as many other components.
+fn suite_of(records: Named, second: Named) -> Suite {
     let pairs = !second.is_empty();
-    if pairs && second.len() != records.len() {
-        let expected = format!("one other component for each of {} records", records.len());
-        return Err(of_argument(py, "second", &expected, &second.len().to_string()));
-    }
     let mut others = second.into_iter();
-    let in_plane =
-        |(_, motion): &&(String, Motion)| motion.0.motion.horizontal_y_m_per_s2().is_some();
-    if let Some((name, _)) = records.iter().find(in_plane)
-        && !(planar && records.iter().all(|record| in_plane(&record)) && !pairs)
-    {
-        let expected = "motions in one direction (run takes one in two)";
-        return Err(of_argument(py, "records", expected, &format!("{name:?} in two")));
-    }
     let both = records.into_iter().flat_map(|first| [Some(first), others.next()]);
     let read = both.flatten().map(|(name, motion)| (name, motion.0.loaded));
     let mut suite = Suite::of(read, false);
     if pairs {
         suite.pair_up();
     }
-    Ok(suite)
+    suite
 }
 
 /// The model's own motion as a suite of one.
@@ -181,7 +169,7 @@ pub(crate) fn assess(
     let asked = asked(py, kind, given)?;
     let suite = match records.is_empty() {
         true => own_motion(py, model)?,
-        false => suite_of(py, records, second, asked.kind() == Kind::Sensitivity)?,
+        false => suite_of(records, second),
     };
     let on = on(model.name(), model, &suite);
     let answer = followed(py, jobs, progress, |engine| asked.run(&on, engine))?;
@@ -209,7 +197,7 @@ pub(crate) fn suite(
         read.map(|(spectrum, _)| (path.display().to_string(), spectrum))
     });
     let target = target.transpose()?;
-    let suite = suite_of(py, records, second, false)?;
+    let suite = suite_of(records, second);
     let on: Vec<On<'_>> = models.iter().map(|(name, model)| on(name, model, &suite)).collect();
     let target = target.as_ref().map(|(name, spectrum)| (name.as_str(), spectrum.clone()));
     let answer = followed(py, jobs, progress, |engine| asked.suite(&on, target, engine))?;

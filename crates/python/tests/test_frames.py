@@ -84,9 +84,21 @@ def test_an_assessment_has_its_tables() -> None:
     assert list(ida.to_xarray().variables) and list(pytest.importorskip("polars").DataFrame(ida)) is not None
 
 
+def test_a_table_draws_its_columns() -> None:
+    pytest.importorskip("matplotlib").use("Agg")
+    table = ss.demands(block(), pulse(), {"slider.kinetic_friction": [0.05, 0.06, 0.08]})
+    axes = table.plot("slider.kinetic_friction", color="C3")
+    assert axes.get_ylabel() == "peak_sliding_displacement_m [m]" and axes.lines[0].get_color() == "C3"
+    assert response().history.plot("time_s", "sliding_displacement_m", ax=axes) is axes
+    with pytest.raises(ss.InputError, match="^y: expected a column among run, "):
+        table.plot("slider.kinetic_friction", "nothing")
+
+
 def test_events_are_a_list_and_a_table() -> None:
     events = response().events
     assert isinstance(events, list) and events[0].kind == "slip" and events[0] in events
+    assert "kind" in events._ipython_key_completions_() and "kind" in events and "nothing" not in events
+    assert events["kind"] == [event.kind for event in events] == events.table["kind"] and events[1:] == list(events)[1:]
     pandas = pytest.importorskip("pandas")
     assert list(events.to_pandas()["kind"]) == list(pandas.DataFrame(events)["kind"])
     assert pytest.importorskip("polars").DataFrame(events.table)["time_s"][0] == events[0].time_s
@@ -101,6 +113,7 @@ def test_frames_go_in() -> None:
     frames += [polars.DataFrame(found.history), pyarrow.table(found.history)]
     compared = [ss.compare(frame, found.model).summary["quantities"] for frame in frames]
     assert len(compared) == 5 and all(len(quantities) == 7 for quantities in compared)
+    assert all(not ss.compare(frame, found.model).warnings for frame in frames[:3])
     # In frames the time at the start of the tail stands once.
     assert all(each["peak_ratio"] == pytest.approx(1.0, rel=1e-9) for each in sum(compared, []))
     motion = found.motion

@@ -105,7 +105,6 @@ def test_motions_in_two_directions(tmp_path: Path) -> None:
         (lambda: pulse().rotated("30 deg"), "two horizontal directions"),
         (lambda: both.rotated(30), "^angle: expected an angle with its unit"),
         (lambda: ss.Motion([0.0, 1.0], y=[0.0], dt=1, units="g"), "^y: expected 2 values"),
-        (lambda: ss.ida(block(), {"both": both}, scale_to="0.1 g", limit="1 mm"), "^records: "),
     ]:
         with pytest.raises(ss.InputError, match=told):
             wrong()

@@ -413,6 +413,8 @@ def test_figures_return_axes(tmp_path: Path) -> None:
     axes[0].figure.savefig(tmp_path / "figure.png")
     _, ax = matplotlib.pyplot.subplots()
     assert response.plot.loop(ax=ax) is ax
+    # On axes of one's own the history alone, as of motions and comparisons.
+    assert response.plot(ax=ax, color="k") is ax and ax.get_ylabel() == "sliding displacement [mm]"
     plot = response.plot
     for draw in [plot.history, plot.acceleration, plot.energy, plot.drift, plot.demand]:
         assert draw().get_xlabel() == "time [s]"

@@ -42,6 +42,18 @@ def test_errors_are_in_words_of_python(tmp_path: Path) -> None:
         "^dt: expected a finite time step > 0, found -1": lambda: ss.Motion([0, 1], dt=-1.0, units="g"),
         "^vary.slider.radius.values.1: expected a length": lambda: ss.study(
             ss.Plan(block(), motions, {"slider.radius": ["1 kg"]}, method="grid")),
+        "^measure: expected records that can be scaled to PGA, found PGA = 0 of quiet$": lambda: ss.study(
+            ss.Plan(block(), {"quiet": pulse().scaled(0.0)}, measure="PGA", levels=["1 g"])),
+        "^b: expected the other component of a, found the same motion$": lambda: ss.study(
+            ss.Plan(block(), motions, second={"b": pulse()})),
+        "^records: expected motions by name, {name: motion}, found Motion$": lambda: ss.ida(
+            block(), pulse(), limit="9 mm"),  # type: ignore[arg-type]
+        "^records: expected motions by name, {name: motion}, found list$": lambda: ss.Plan(
+            block(), [pulse()]),  # type: ignore[arg-type]
+        "^records: expected a motion as 'a', found ndarray$": lambda: ss.suite(
+            block(), {"a": np.zeros(3)}),  # type: ignore[dict-item]
+        "^designs: expected arrays by path, {path: array}, found list$": lambda: ss.demands(
+            block(), pulse(), [1.0]),  # type: ignore[arg-type]
     }
     for expected, call in calls.items():
         text = told(call)
@@ -49,6 +61,17 @@ def test_errors_are_in_words_of_python(tmp_path: Path) -> None:
         assert re.search(expected, text), text
     assert "cloud" in str(ss.fragility(table, fit_to="cloud", limit="9 mm", floor="1 mm"))
     assert "--" not in str(ss.fragility(table, fit_to="cloud", limit="9 mm", floor="1 mm"))
+
+
+def test_notices_call_records_by_their_names() -> None:
+    found = ss.study(ss.Plan(block(), {"one": pulse(), "other": pulse()}))
+    assert found.notices == ["one and other are the same motion: it counts twice"]
+
+
+@pytest.mark.parametrize("name", ["up", "Z", "a/b", "H-DLTDWN", "v.1"])
+def test_a_record_may_have_any_name(name: str) -> None:
+    # The file of the plan is no vertical component, whatever it is called.
+    assert ss.study(ss.Plan(block(), {name: pulse()})).table["record"] == [name]
 
 
 def test_minus_one_job_is_all() -> None:

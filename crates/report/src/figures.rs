@@ -25,6 +25,16 @@ pub struct Drawn {
     pub caption: String,
     /// The drawing.
     pub svg: Svg,
+    /// What it is of, for those who draw it themselves.
+    pub figure: Figure,
+}
+
+impl Drawn {
+    /// Draws a figure and puts its caption beside it.
+    #[must_use]
+    pub fn new(figure: Figure, caption: String) -> Self {
+        Self { id: figure.id, caption, svg: figure.to_svg(), figure }
+    }
 }
 
 /// How many figures, from the first, stand before the table of peaks.
@@ -125,11 +135,6 @@ fn shown_note(shown: &[usize], n: usize) -> String {
         }
         _ => String::new(),
     }
-}
-
-/// Draws a figure and puts its caption beside it.
-fn drawn(figure: &Figure, caption: String) -> Drawn {
-    Drawn { id: figure.id, caption, svg: figure.to_svg() }
 }
 
 #[cfg(test)]

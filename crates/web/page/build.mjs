@@ -44,7 +44,7 @@ const firstWasm = read("pkg/slipstick_first_bg.wasm");
 const { first } = await import(`data:text/javascript;base64,${Buffer.from(await bundle("painted.ts", { format: "esm" })).toString("base64")}`);
 const bindings = join(here, "pkg/slipstick_first.js");
 const ofFirst = { name: "first", setup: (build) => build.onResolve({ filter: /\/pkg\/slipstick_web\.js$/ }, () => ({ path: bindings })) };
-const [app, worker, firstWorker, single] = await Promise.all([bundle("folder.ts"), bundle("worker.ts"), bundle("worker.ts", { plugins: [ofFirst] }), bundle("single.ts")]);
+const [app, worker, firstWorker, single, loader] = await Promise.all([bundle("folder.ts"), bundle("worker.ts"), bundle("worker.ts", { plugins: [ofFirst] }), bundle("single.ts"), bundle("loader.ts")]);
 
 rmSync(out, { recursive: true, force: true });
 mkdirSync(out, { recursive: true });
@@ -80,9 +80,10 @@ files["service-worker.js"] = await bundle("service-worker.ts", {
 
 // A script's text must not end its element.
 const inline = (script) => script.replace(/<\/(script)/gi, "<\\/$1").replace(/<!--/g, "<\\!--");
-const packed = gzipSync(wasm, { level: 9 }).toString("base64");
-const parts = { icon: read("icon.svg").toString("base64"), style, wasm: packed, worker: inline(worker), app: inline(single) };
-const whole = read("single.html").toString().replace(/\{(icon|style|wasm|worker|app)\}/g, (_, name) => parts[name]);
+const pack = (data) => gzipSync(data, { level: 9 }).toString("base64");
+const packed = pack(wasm);
+const parts = { icon: read("icon.svg").toString("base64"), style, wasm: packed, worker: inline(worker), app: pack(single), loader: inline(loader) };
+const whole = read("single.html").toString().replace(/\{(icon|style|wasm|worker|app|loader)\}/g, (_, name) => parts[name]);
 
 const widget = await bundle("widget.ts", {
   format: "esm",

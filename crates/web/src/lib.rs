@@ -15,6 +15,8 @@ compile_error!(
 mod answer;
 mod failure;
 #[cfg(feature = "whole")]
+mod figures;
+#[cfg(feature = "whole")]
 mod judged;
 mod records;
 #[cfg(feature = "whole")]

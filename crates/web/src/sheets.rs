@@ -9,8 +9,9 @@ use slipstick::assessment::models::Models;
 use slipstick::assessment::suite::Suite;
 use slipstick::input::loaded::{Components, Loaded, Wanted};
 use slipstick::input::plan::Plan;
+use slipstick::input::unfit::refuse_unfit;
 use slipstick::input::{Analysis, MotionSource, Override};
-use slipstick::notice::Notice;
+use slipstick::notice::{Notice, NoticeKind};
 use slipstick::record::{self, Options};
 use slipstick::requests::{Answer, Door, Field, Kind, On, Request, Results, Runs, Takes};
 use slipstick::response::Method;
@@ -27,7 +28,7 @@ use slipstick_report::{FileNote, InputText, report};
 use wasm_bindgen::prelude::*;
 
 use crate::failure::Failure;
-use crate::judged::drawings;
+use crate::figures;
 use crate::records::Records;
 use crate::runs;
 use crate::session::{MODEL, UNNAMED, parse, texts};
@@ -117,7 +118,7 @@ impl Page {
             ("tables", Json::List(sheet.tables.iter().map(table).collect())),
             ("notes", list(&sheet.notes)),
             ("method", list(&sheet.method)),
-            ("figures", drawings(&sheet.figures)),
+            ("figures", Json::List(sheet.figures.iter().map(figures::alive).collect())),
             ("commands", texts(again.commands.iter().map(String::as_str))),
             ("records", Json::List(again.records.iter().map(record).collect())),
         ]);
@@ -491,6 +492,10 @@ fn suite(
         taken.push(Taken { path: path.clone(), file, text: written, sha256, description });
         read.push((path, loaded));
     }
+    let channel_asked =
+        settings.unsaid().is_some_and(|said| said.iter().any(|(name, _)| *name == "channel"));
+    let same =
+        same_motions(read.iter().map(|(path, loaded)| (path, loaded)), channel_asked, false)?;
     let made = read.is_empty() && !matches!(analysis.motion, Some(MotionSource::Record(_)));
     if read.is_empty() {
         let one = analysis.in_one_direction("a suite of the page has");
@@ -515,7 +520,21 @@ fn suite(
             read.iter_mut().for_each(|(path, _)| *path = stem(path));
         }
     }
-    Ok((Suite::of(read, made), taken))
+    let mut suite = Suite::of(read, made);
+    suite
+        .notices
+        .extend(same.into_iter().map(|message| Notice::new(NoticeKind::SameMotion, message)));
+    Ok((suite, taken))
+}
+
+/// A sentence for each motion that stands there under two names.
+fn same_motions<'a>(
+    read: impl Iterator<Item = (&'a String, &'a Loaded)>,
+    channel_asked: bool,
+    pairs: bool,
+) -> Result<Vec<String>, Failure> {
+    let read: Vec<(String, &Loaded)> = read.map(|(name, loaded)| (name.clone(), loaded)).collect();
+    refuse_unfit(&read, channel_asked, pairs).map_err(Failure::of)
 }
 
 /// A channel of a record as columns that say all of themselves.
@@ -570,6 +589,8 @@ pub struct Planned {
     names: Vec<String>,
     name: String,
     study: Study,
+    /// What was noticed of the records together.
+    notices: Vec<String>,
 }
 
 impl Planned {
@@ -580,9 +601,9 @@ impl Planned {
         text: &str,
         names: &[String],
     ) -> Result<Self, Failure> {
-        let (name, study) = planned(records, plan, text, names)?;
+        let (name, study, notices) = planned(records, plan, text, names)?;
         let (plan, text, names) = (plan.to_owned(), text.to_owned(), names.to_vec());
-        Ok(Self { plan, text, names, name, study })
+        Ok(Self { plan, text, names, name, study, notices })
     }
 
     /// Whether it is of these.
@@ -681,7 +702,7 @@ impl Planned {
             study: &self.study,
             summary: &summary.map_err(Failure::of)?,
             checked: 0,
-            notices: &[],
+            notices: &self.notices,
             display,
         };
         let inputs = [
@@ -701,10 +722,10 @@ fn planned(
     plan_text: &str,
     text: &str,
     names: &[String],
-) -> Result<(String, Study), Failure> {
+) -> Result<(String, Study, Vec<String>), Failure> {
     let in_plan = |error| Failure::input(&error, plan_text);
     let plan = Plan::parse(PLAN, plan_text).map_err(in_plan)?;
-    let mut suite = Vec::new();
+    let (mut suite, mut notices) = (Vec::new(), Vec::new());
     if let Some(wanted) = &plan.records {
         let named = |key: &str, patterns: &[String]| {
             let of = |pattern: &String| {
@@ -733,15 +754,21 @@ fn planned(
         let count = (files.len(), "records");
         plan.one_each(("second", "other component"), second.len(), count).map_err(in_plan)?;
         plan.one_each(("vertical", "vertical motion"), vertical.len(), count).map_err(in_plan)?;
+        let mut read = Vec::new();
         for (i, first) in files.iter().enumerate() {
             let up = vertical.get(i).map(|up| (up.as_str(), wanted.vertical_scale.unwrap_or(1.0)));
             for name in core::iter::once(first).chain(second.get(i)) {
                 let options = Options { format: None, units: wanted.units, dt_s: wanted.dt_s };
                 let channel = wanted.channel.as_deref();
-                let loaded = recorded(records, name, &options, (channel, up))?;
-                suite.push(Record::read(name.clone(), loaded, (!second.is_empty()).then_some(i)));
+                let pair = (!second.is_empty()).then_some(i);
+                read.push((name, recorded(records, name, &options, (channel, up))?, pair));
             }
         }
+        let of = read.iter().map(|(name, loaded, _)| (*name, loaded));
+        notices = same_motions(of, wanted.channel.is_some(), !second.is_empty())?;
+        let record =
+            |(name, loaded, pair): (&String, _, _)| Record::read(name.clone(), loaded, pair);
+        suite = read.into_iter().map(record).collect();
     }
     let study = Study::new(&plan, MODEL, text, suite).map_err(|error| {
         let of_plan = error.place.source_name == PLAN;
@@ -753,7 +780,7 @@ fn planned(
         let expected = format!("at most {MOST_RUNS} runs on the page: use slipstick study");
         return Err(in_plan(plan.error_at("sampling.count", expected, runs.to_string())));
     }
-    Ok((plan.name.unwrap_or_else(|| "Study".to_owned()), study))
+    Ok((plan.name.unwrap_or_else(|| "Study".to_owned()), study, notices))
 }
 
 /// Whether a pattern of a plan names a file: `*` stands for any part of its name; folders are not looked

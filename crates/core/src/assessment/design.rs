@@ -138,8 +138,9 @@ impl Target {
     }
 }
 
-/// Designs judged together: the front found so far bounds the next batch.
-const BATCH: usize = 256;
+/// Designs judged together: the front found so far bounds the next batch. Few, so that small grids have several;
+/// enough for the threads of a large machine.
+const BATCH: usize = 32;
 /// Parts in which a batch's records are run.
 const PARTS: usize = 6;
 

@@ -149,6 +149,12 @@ impl Suite {
         Ok(Self { records, made: self.made, notices: self.notices.clone() })
     }
 
+    /// The same with each motion in two horizontal directions as the pair of its components.
+    #[must_use]
+    pub fn apart(&self) -> Self {
+        Self { records: records::apart(&self.records), ..self.clone() }
+    }
+
     /// What was noticed of the records, each kind once.
     #[must_use]
     pub fn noticed(&self) -> Vec<Notice> {

@@ -169,11 +169,10 @@ const SENSITIVITY: &[Field] = &[
     Field::new(
         "paths",
         "PATHS",
-        "Keys of the model that the demands are derived by: slider.kinetic_friction,slider.radius; may be \
-         repeated",
+        "Keys of the model that the demands are derived by: slider.kinetic_friction,slider.radius; all numbers of \
+         slider, block and structure if left out; may be repeated",
     )
-    .many()
-    .sample("slider.kinetic_friction"),
+    .many(),
     MEASURE,
     SCALE_TO,
     SCALE,
@@ -506,7 +505,7 @@ pub const NOT_OFFERED: &[(Door, Kind, Option<&str>, &str)] = &[
     (Door::Page, Kind::Suite, Some("periods"), "the page has no pairs of records"),
     (Door::Page, Kind::Suite, Some("pairs"), "the page has no pairs of records"),
     (Door::Page, Kind::Spectrum, Some("pairs"), "the page has no pairs of records"),
-    (Door::Page, Kind::Sensitivity, None, "the page's sweep shows how demands follow a value"),
+    (Door::Page, Kind::Sensitivity, Some("pairs"), "the page has no pairs of records"),
     (Door::Page, Kind::Ida, Some("pairs"), "the page has no pairs of records"),
     (Door::Page, Kind::Design, Some("pairs"), "the page has no pairs of records"),
     (Door::Page, Kind::Compare, None, "the page shows no measurements"),

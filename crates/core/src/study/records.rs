@@ -92,6 +92,25 @@ pub(crate) fn together(
     groups(records).into_iter().map(join).collect()
 }
 
+/// Each motion in two horizontal directions as the pair of its components, called by their axes, both with the
+/// vertical component.
+pub(crate) fn apart(records: &[Record]) -> Vec<Record> {
+    let split = |(number, record): (usize, &Record)| {
+        let Record { name, motion, origin, .. } = record;
+        if motion.horizontal_y_m_per_s2().is_none() {
+            return vec![record.clone()];
+        }
+        let along_y = origin.along_y.as_deref().cloned().unwrap_or_default();
+        let along_x = Origin { along_y: None, ..origin.clone() };
+        let of = |(axis, motion, origin)| {
+            let (name, pair) = (format!("{name} {axis}"), Some(number));
+            Record { name, motion, origin, pair, ..record.clone() }
+        };
+        [("x", motion.along_x(), along_x), ("y", motion.along_y(), along_y)].map(of).into()
+    };
+    records.iter().enumerate().flat_map(split).collect()
+}
+
 /// The measure of a record alone, or of a pair; else what was found instead of records that can be scaled to it.
 pub(crate) fn measured(group: &[Record], measure: &LevelMeasure) -> Result<f64, String> {
     let [first, rest @ ..] = group else { return Err("no record".to_owned()) };

@@ -7,8 +7,6 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from . import _core
 from ._request import given, paths as texts_of, wrong
 from ._result import Result, noticed, warn_of, write
@@ -64,7 +62,8 @@ class Assessment(Result):
         -------
         Axes
         """
-        return plotted(self.table if table is None else self.tables[table], x, y, by, ax, **kwargs)
+        chosen = self.table if table is None else self.tables[table]
+        return chosen.plot(x, y, by=by, ax=ax, **kwargs)
 
     def report(self, path: str | PathLike[str]) -> Path:
         """Write the result as one HTML page.
@@ -78,28 +77,6 @@ class Assessment(Result):
 
     def __str__(self) -> str:
         return str(self._tell("text"))
-
-
-def plotted(
-    table: Table, x: str | None, y: str | None, by: str | None, ax: Axes | None, **kwargs: Any
-) -> Axes:
-    """One column of a table over another, the usual ones where none are said."""
-    from ._plot import draw_table
-
-    def many(values: Any) -> bool:
-        return len(set(values[~np.isnan(values)])) > 1
-
-    numbers = [name for name in table if isinstance(table[name], np.ndarray) and many(table[name])]
-    if x is None:
-        x = next(iter(numbers), None)
-    if y is None:
-        usual = [name for name in numbers if name.startswith("peak_sliding_displacement_m")]
-        y = next(iter(usual + [name for name in reversed(numbers) if name != x]), None)
-    for argument, name in [("x", x), ("y", y), ("by", by)]:
-        if name not in table and not (argument == "by" and name is None):
-            raise wrong(argument, f"a column among {', '.join(table)}", repr(name))
-    assert x is not None and y is not None
-    return draw_table(table, x, y, by, ax, **kwargs)
 
 
 def read_suite(
@@ -165,10 +142,10 @@ def suite(
     models
         A model, or several by name.
     records
-        The motions by name, such as from ``read_suite``.
+        The motions by name, such as from ``read_suite``; those in two directions, ``Motion(x, y=y)``, are pairs.
     second
-        Other components of the records, as many and in the same order: both components of a pair act at
-        once, under one factor.
+        Other components of records in one direction, as many and in the same order: both components of a pair
+        act at once, under one factor.
     measure, scale_to
         All records, or pairs, are scaled so that the measure takes this value; as recorded if left out.
     scale
@@ -212,11 +189,12 @@ def suite(
     (3, ['model', 'friction', 'statistic'])
     """
     several = models if isinstance(models, Mapping) else {models.name or "model": models}
+    of, others = components("records", records, second)
     return _told(
         _core.suite(
             list(several.items()),
-            named(records),
-            list((second or {}).items()),
+            of,
+            others,
             given("suite", locals()),
             target=None if target is None else Path(target),
             jobs=jobs,
@@ -247,7 +225,7 @@ def spectrum(
     Parameters
     ----------
     model, records
-        The model and the motions by name, such as from ``read_suite``.
+        The model and the motions by name, such as from ``read_suite``, in one direction or in two.
     over
         The parameter along the axis and its values: ``{"slider.radius": "1..5 m:50"}``; the isolator period
         if left out.
@@ -264,8 +242,7 @@ def spectrum(
     bounds
         Which of the model's ``slider.bounds`` are run: ``"all"``, ``"lower"``, ``"nominal"``, ``"upper"``.
     second
-        Other components of the records, as many and in the same order: both components of a pair act at once,
-        under one factor.
+        As in ``suite``.
     pairs
         How pairs are run: ``"together"``, the table moving in two horizontal directions, or ``"separate"``, each
         component by itself.
@@ -354,7 +331,7 @@ def sensitivity(
     model
         The model.
     motions
-        A motion, or several by name; None for the model's own.
+        A motion, or several by name, in one direction or in two; None for the model's own.
     paths
         Keys that stand in the model as one number, ``["slider.kinetic_friction", "storey.1.mass"]``.
     measure, scale_to, scale
@@ -394,9 +371,7 @@ def sensitivity(
     records = {} if motions is None else motions
     if isinstance(records, _core.Motion):
         records = {"motion": records}
-    elif motions is not None and not records:
-        raise wrong("motions", "at least one motion, or None for the model's own", "none")
-    of, others = list(records.items()), list((second or {}).items())
+    of, others = ([], []) if motions is None else components("motions", records, second)
     asked = given("sensitivity", locals())
     answer = _core.assess("sensitivity", model, of, others, asked, jobs=jobs, progress=progress)
     told = Sensitivity(answer)
@@ -428,7 +403,7 @@ def ida(
     Parameters
     ----------
     model, records
-        The model and the motions by name.
+        The model and the motions by name, in one direction or in two.
     measure
         The intensity measure.
     scale_to
@@ -445,8 +420,7 @@ def ida(
     bounds
         Which of the model's ``slider.bounds`` are run: ``"all"``, ``"lower"``, ``"nominal"``, ``"upper"``.
     second
-        Other components of the records, as many and in the same order: both components of a pair act at
-        once, under one factor.
+        As in ``suite``.
     pairs
         How pairs are run: ``"together"``, the table moving in two horizontal directions, or ``"separate"``, each
         component by itself.
@@ -582,7 +556,7 @@ def design(
     Parameters
     ----------
     model, records
-        The model and the motions by name.
+        The model and the motions by name, in one direction or in two.
     vary
         Parameters and their values: ``{"slider.radius": "1..5 m:200"}``.
     friction
@@ -602,8 +576,7 @@ def design(
     confidence
         Of intervals.
     second
-        Other components of the records, as many and in the same order: both components of a pair act at once,
-        under one factor.
+        As in ``suite``.
     pairs
         How pairs are run: ``"together"``, the table moving in two horizontal directions, or ``"separate"``, each
         component by itself.
@@ -646,16 +619,34 @@ def _assess(
     jobs: int | None,
     progress: Progress | None,
 ) -> Assessment:
-    of, others = named(records), list((second or {}).items())
+    of, others = components("records", records, second)
     answer = _core.assess(kind, model, of, others, given(kind, asked), jobs=jobs, progress=progress)
     return _told(answer)
 
 
-def named(records: Records) -> list[tuple[str, _core.Motion]]:
-    """Motions with their names, at least one."""
+def components(
+    argument: str, records: Records, second: Records | None = None
+) -> tuple[list[tuple[str, _core.Motion]], list[tuple[str, _core.Motion]]]:
+    """Motions with their names, at least one, all in one direction or all in two, and their other components."""
+    for name, motions in ((argument, records), ("second", second or {})):
+        if not isinstance(motions, Mapping):
+            raise wrong(name, "motions by name, {name: motion}", type(motions).__name__)
+        for key, motion in motions.items():
+            if not isinstance(motion, _core.Motion):
+                raise wrong(name, f"a motion as {key!r}", type(motion).__name__)
     if not records:
-        raise wrong("records", "at least one motion", "none")
-    return list(records.items())
+        raise wrong(argument, "at least one motion", "none")
+    if second is not None and len(second) != len(records):
+        raise wrong("second", f"one other component for each of {len(records)} records", str(len(second)))
+    of, others = list(records.items()), list((second or {}).items())
+    in_one, in_two = list[str](), list[str]()
+    for key, motion in of + others:
+        (in_one if motion.acceleration_y_m_per_s2 is None else in_two).append(key)
+    if in_two and second is not None:
+        raise wrong("second", "records in one direction beside it", f'"{in_two[0]}" in two')
+    if in_two and in_one:
+        raise wrong(argument, "motions all in one direction or all in two", f'"{in_one[0]}" in one')
+    return of, others
 
 
 def _told(answer: _core.Assessment) -> Assessment:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from . import _core
+from ._assessment import components
 from ._request import several, wrong
 from ._table import Table
 
@@ -30,7 +31,8 @@ def demands(
     model
         The model, with the friction that it has; its ``slider.bounds`` play no part.
     motion
-        A motion, or several by name; None for the model's own, which must then be a made one.
+        A motion, or several by name, in one direction or in two; None for the model's own, which must then be a
+        made one.
     designs
         Arrays by path, all of one length: in SI, or of quantities of pint and texts with their units. One
         number serves for all designs.
@@ -67,6 +69,8 @@ def demands(
     >>> bool((np.diff(table["peak_sliding_displacement_m"]) > 0.0).all())
     True
     """
+    if not isinstance(designs, Mapping):
+        raise wrong("designs", "arrays by path, {path: array}", type(designs).__name__)
     lists = {path: values if several(values) else [values] for path, values in designs.items()}
     if not lists:
         raise wrong("designs", "at least one path with its values", "none")
@@ -74,15 +78,8 @@ def demands(
     each = [(path, list(values) * count if len(values) == 1 else values) for path, values in lists.items()]
     if not 0.0 <= check <= 1.0:
         raise wrong("check", "a share from 0 to 1", repr(check))
-    if motion is None:
-        records = []
-    else:
-        records = list(motion.items()) if isinstance(motion, Mapping) else [("motion", motion)]
-        if not records:
-            raise wrong("motion", "at least one motion", "none")
-    for name, one in records:
-        if one.acceleration_y_m_per_s2 is not None:
-            raise wrong("motion", "motions in one direction (run takes one in two)", f"{name!r} in two")
+    motions = {"motion": motion} if isinstance(motion, _core.Motion) else motion
+    records = [] if motions is None else components("motion", motions)[0]
     one_of = round(1.0 / check) if check > 0.0 else None
     core = _core.demands(model, records, each, one_of=one_of, jobs=jobs, progress=progress)
     table = Table._of(core)

@@ -28,9 +28,15 @@ class Plotter:
     def __init__(self, response: Response) -> None:
         self._response = response
 
-    def __call__(self, **kwargs: Any) -> NDArray[np.object_]:
-        """Displacement, acceleration and the friction loop on one page; lines take what is given besides."""
+    def __call__(self, ax: Axes | None = None, **kwargs: Any) -> NDArray[np.object_] | Axes:
+        """Displacement, acceleration and the friction loop on one page, on axes of one's own the displacement alone.
+
+        Lines take what is given besides.
+        """
         import matplotlib.pyplot as plt
+
+        if ax is not None:
+            return self.history(ax, **kwargs)
 
         _, axes = plt.subplot_mosaic(
             [["sliding", "loop"], ["acceleration", "loop"]], figsize=(10, 5), layout="constrained"

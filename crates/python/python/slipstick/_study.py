@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _core
-from ._assessment import plotted, read_suite
+from ._assessment import components, read_suite
 from ._errors import InputError, RecordError
 from ._request import several, text_of, wrong
 from ._result import svg_of, warn_of
@@ -65,7 +65,7 @@ class Study(NamedTuple):
             told = [name for name in self.table if "." in name and not name.startswith(("block.", "x.", "y."))]
             varied = [name for name in told if len(set(self.table[name])) > 1]
             x = next(iter(varied), "level" if "level" in self.table else None)
-        return plotted(self.table, x, y, by, ax, **kwargs)
+        return self.table.plot(x, y, by=by, ax=ax, **kwargs)
 
     def _repr_html_(self) -> str:
         from html import escape
@@ -84,9 +84,10 @@ class Plan:
     model
         The model.
     records
-        Motions by name, which rows keep; the model's own motion if left out, which must then be a made one.
+        Motions by name, which rows keep, all in one direction or all in two; the model's own motion if left out,
+        which must then be a made one.
     second
-        Other components of the records, as many and in the same order, with one factor for the pair.
+        Other components of records in one direction, as many and in the same order, with one factor for the pair.
     pairs
         How pairs are run: ``"together"``, the table moving in two horizontal directions, or ``"separate"``, each
         component by itself; together if left out.
@@ -136,19 +137,16 @@ class Plan:
     pairs: str | None = None
 
     def __post_init__(self) -> None:
-        if self.records is not None and not self.records:
-            raise wrong("records", "at least one motion, or none for the model's own", "an empty dict")
-        if self.second is not None and len(self.second) != len(self.records or ()):
-            expected = f"one other component for each of {len(self.records or ())} records"
-            raise wrong("second", expected, str(len(self.second)))
-        for of, beside in [
-            (("measure", "levels", "scale"), "records"),
-            (("pairs",), "second"),
-            (("samples", "seed", "correlation"), "vary"),
+        if self.records is not None:
+            components("records", self.records, self.second)
+        for of, beside, there in [
+            (("measure", "levels", "scale", "second"), "records", bool(self.records)),
+            (("pairs",), "second, or records in two directions,", self._of_pairs),
+            (("samples", "seed", "correlation"), "vary", bool(self.vary)),
         ]:
-            for name in of if not getattr(self, beside) else ():
+            for name in () if there else of:
                 if (value := getattr(self, name)) is not None:
-                    raise wrong(name, f"{beside} beside it", repr(value))
+                    raise wrong(name, f"{beside} beside it", repr(list(value) if isinstance(value, Mapping) else value))
 
     @classmethod
     def read(cls, path: str | PathLike[str]) -> Plan:
@@ -206,17 +204,32 @@ class Plan:
     def files(self) -> dict[str, str]:
         """The plan, the model and the records as the files of a study, text by name."""
         files = {"plan.toml": self._toml(), "model.toml": self.model.toml}
-        for folder, motions in self._motions():
-            files.update({_file(folder, name): _csv(name, motion) for name, motion in motions.items()})
+        first, second = self._motions
+        files.update({_file("records", name): _csv(motion) for name, motion in first.items()})
+        files.update({_file("second", name): _csv(motion, along_y=self.second is None) for name, motion in second.items()})
         return files
 
-    def _motions(self) -> list[tuple[str, Mapping[str, _core.Motion]]]:
-        return [("records", self.records or {}), ("second", self.second or {})]
+    @property
+    def _in_two(self) -> bool:
+        """Whether records are in two directions."""
+        return any(motion.acceleration_y_m_per_s2 is not None for motion in (self.records or {}).values())
+
+    @property
+    def _of_pairs(self) -> bool:
+        return self.second is not None or self._in_two
+
+    @property
+    def _motions(self) -> tuple[Mapping[str, _core.Motion], Mapping[str, _core.Motion]]:
+        """The records and their other components, which those in two directions have in themselves."""
+        records = self.records or {}
+        return records, records if self._in_two else self.second or {}
 
     @property
     def _names(self) -> list[tuple[str, str]]:
-        """Names of the records by their files."""
-        return [(_file(folder, name), name) for folder, motions in self._motions() for name in motions]
+        """Names of the records by their files; of those in two directions that are run separately with their axes."""
+        axes = (" x", " y") if self._in_two and self.pairs == "separate" else ("", "")
+        of = zip(("records", "second"), self._motions, axes, strict=True)
+        return [(_file(folder, name), name + axis) for folder, motions, axis in of for name in motions]
 
     @property
     def digest(self) -> str:
@@ -242,13 +255,14 @@ class Plan:
         text = rows({"name": self.name, "model": "model.toml", "bounds": self.bounds})
         if self.records is not None:
             records = [_file("records", name) for name in self.records]
-            second = [_file("second", name) for name in self.second or ()] or None
+            second = [_file("second", name) for name in self._motions[1]] or None
             levels = self.levels
             if isinstance(levels, str):
                 levels = _core.levels(levels, self.measure or "PGA")
             measured = {"measure": self.measure, "levels": levels, "scale": self.scale}
             pairs = {"second": second, "pairs": self.pairs}
-            text += ["[records]", *rows({"files": records, **pairs, **measured})]
+            # A channel that is named is taken whatever its file is called: "up" is a name here.
+            text += ["[records]", *rows({"files": records, "channel": _CHANNEL, **pairs, **measured})]
         if self.vary:
             varied = {k: v if isinstance(v, Mapping) else {"values": v} for k, v in self.vary.items()}
             counted = {"method": self.method, "count": self.samples, "seed": self.seed}
@@ -304,14 +318,15 @@ def study(
 
         path = plan.write(new_folder()) if isinstance(plan, Plan) else Path(plan)
         folder = new_folder() if out is None else Path(out)
-        with _said_of(plan):
-            names = plan._names if isinstance(plan, Plan) else []
+        names = plan._names if isinstance(plan, Plan) else []
+        with _said_of(plan, path.parent):
             done = _core.study(path, folder, names=names, jobs=jobs, progress=progress, force=force)
     table, summary = done.table, done.summary
     assert table is not None and summary is not None
     if done.failures:
         warn_of([("failed_runs", f"{done.failures} of {done.runs} runs have no answer: their status says why", True)])
-    return Study(Table._of(table), Table._of(summary), done.runs, done.failures, done.notices)
+    notices = [_by_name(notice, path.parent, names) for notice in done.notices]
+    return Study(Table._of(table), Table._of(summary), done.runs, done.failures, notices)
 
 
 def run_shard(
@@ -332,17 +347,27 @@ def run_shard(
 
     with TemporaryDirectory(prefix="slipstick-") as folder:
         path = plan.write(folder) if isinstance(plan, Plan) else Path(plan)
-        with _said_of(plan):
+        with _said_of(plan, path.parent):
             return _core.study(path, Path(out), shard=shard, jobs=jobs).runs
 
+
+#: The column of a record of a plan of values
+_CHANNEL = "acceleration_m_per_s2"
 
 #: Arguments of a plan by its keys, where they have another name.
 _ARGUMENTS = {"records.files": "records", "sampling.count": "samples"}
 
 
+def _by_name(text: str, folder: Path, names: list[tuple[str, str]]) -> str:
+    """A text that calls records by their names instead of files that nobody wrote."""
+    for file, name in names:
+        text = text.replace(str(folder / file), name).replace(file, name)
+    return text
+
+
 @contextmanager
-def _said_of(plan: object) -> Iterator[None]:
-    """What is wrong with a plan of values is said of its argument, not of a file that nobody wrote."""
+def _said_of(plan: Plan | str | PathLike[str], folder: Path) -> Iterator[None]:
+    """What is wrong with a plan of values is said of its argument, not of a file in the folder that nobody wrote."""
     try:
         yield
     except InputError as error:
@@ -350,19 +375,15 @@ def _said_of(plan: object) -> Iterator[None]:
             raise
         key = error.path
         name = _ARGUMENTS.get(key, key.removeprefix("records.").removeprefix("sampling."))
+        found = _by_name(error.found, folder, plan._names)
         hint = f'; nearest is "{error.nearest}"' if error.nearest else ""
-        message = f"{name}: expected {error.expected}, found {error.found}{hint}"
-        raise InputError(
-            message, path=name, expected=error.expected, found=error.found, nearest=error.nearest
-        ) from None
+        message = f"{name}: expected {error.expected}, found {found}{hint}"
+        raise InputError(message, path=name, expected=error.expected, found=found, nearest=error.nearest) from None
     except RecordError as error:
         if not isinstance(plan, Plan):
             raise
-        # Its file is gone: what is left of the path is the record's own.
-        file = next((file for file, _ in plan._names if file in str(error)), None)
-        name = dict(plan._names).get(file or "", "records")
-        message = str(error).partition(f"{file}: ")[2] if file else str(error)
-        raise RecordError(f"{name}: {message or error}", source=name) from None
+        name = next((name for file, name in plan._names if file in str(error)), "records")
+        raise RecordError(_by_name(str(error), folder, plan._names), source=name) from None
 
 
 def _file(folder: str, name: str) -> str:
@@ -375,11 +396,11 @@ def _file(folder: str, name: str) -> str:
     return f"{folder}/{plain.replace('.', '%2E', 1) if plain.startswith('.') else plain}.csv"
 
 
-def _csv(name: str, motion: _core.Motion) -> str:
-    """A record whose numbers read back as the same."""
-    if motion.acceleration_y_m_per_s2 is not None:
-        raise wrong("records", "motions in one direction (run takes one in two)", f"{name!r} in two")
-    columns = {"time_s": motion.time_s, "acceleration_m_per_s2": motion.acceleration_m_per_s2}
+def _csv(motion: _core.Motion, *, along_y: bool = False) -> str:
+    """A record of one horizontal direction, whose numbers read back as the same."""
+    across = motion.acceleration_y_m_per_s2 if along_y else None
+    horizontal = motion.acceleration_m_per_s2 if across is None else across
+    columns = {"time_s": motion.time_s, _CHANNEL: horizontal}
     if motion.vertical_m_per_s2 is not None:
         columns["vertical_acceleration_m_per_s2"] = motion.vertical_m_per_s2
     rows = zip(*(column.tolist() for column in columns.values()), strict=True)

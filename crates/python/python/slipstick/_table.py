@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, Self
 import numpy as np
 
 from . import _core
+from ._request import wrong
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
+    from matplotlib.axes import Axes
 
     #: A dict of columns, or a frame of any library
     Frame = Any
@@ -116,6 +118,39 @@ class Table:
         index = {"time_s": of.pop("time_s")} if "time_s" in of else {}
         return xr.Dataset(of, coords=index)
 
+    def plot(
+        self, x: str | None = None, y: str | None = None, *, by: str | None = None, ax: Axes | None = None, **kwargs: Any
+    ) -> Axes:
+        """Draw one column over another in Matplotlib.
+
+        Parameters
+        ----------
+        x, y
+            Columns of numbers; the first, and the one that answers first, if left out.
+        by
+            A column whose values have lines of their own.
+        ax
+            Where it is drawn; a new figure if left out.
+        kwargs
+            What lines take: ``color``, ``lw``, ``marker``.
+        """
+        from ._plot import draw_table
+
+        def many(values: Any) -> bool:
+            return len(set(values[~np.isnan(values)])) > 1
+
+        numbers = [name for name in self if isinstance(self[name], np.ndarray) and many(self[name])]
+        if x is None:
+            x = next(iter(numbers), None)
+        if y is None:
+            usual = [name for name in numbers if name.startswith("peak_sliding_displacement_m")]
+            y = next(iter(usual + [name for name in reversed(numbers) if name != x]), None)
+        for argument, name in [("x", x), ("y", y), ("by", by)]:
+            if name not in self and not (argument == "by" and name is None):
+                raise wrong(argument, f"a column among {', '.join(self)}", repr(name))
+        assert x is not None and y is not None
+        return draw_table(self, x, y, by, ax, **kwargs)
+
     def _once(self) -> dict[str, Any]:
         """The columns, of a history with the last row of each time."""
         columns = dict(self.items())
@@ -204,7 +239,7 @@ class Event(NamedTuple):
 
 
 class Events(list[Event]):
-    """The events in order: a list that is a table as well."""
+    """The events in order: a list that is a table as well, ``events[0]`` an event, ``events["time_s"]`` a column."""
 
     @property
     def table(self) -> Table:
@@ -221,12 +256,23 @@ class Events(list[Event]):
         """The events as a dataset."""
         return self.table.to_xarray()
 
+    def __getitem__(self, key: Any) -> Any:
+        return self.table[key] if isinstance(key, str) else super().__getitem__(key)
+
+    def __contains__(self, key: object) -> bool:
+        return key in Event._fields if isinstance(key, str) else super().__contains__(key)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(Event._fields)
+
     def __arrow_c_stream__(self, requested_schema: object | None = None) -> object:
         return self.table.__arrow_c_stream__(requested_schema)
 
 
 def columns_of(frame: Any) -> list[tuple[str, Any]]:
-    """Names and values of the columns of any frame."""
+    """Names and values of the columns of any frame, of a history each time once."""
+    if isinstance(frame, Table):
+        return list(frame._once().items())
     if hasattr(frame, "to_dataframe"):  # xarray
         frame = frame.to_dataframe()
     if hasattr(frame, "reset_index") and any(name is not None for name in frame.index.names):

@@ -102,7 +102,7 @@ pub fn laid(
 ) -> Drawn {
     let (title, description, shaded) = (title.to_owned(), caption.clone(), Vec::new());
     let figure = Figure { id, title, description, layout, panels, shaded };
-    Drawn { id, caption, svg: figure.to_svg() }
+    Drawn::new(figure, caption)
 }
 
 /// A panel without limits or notes.

@@ -148,10 +148,13 @@ impl SensitivityReport<'_> {
         let unit = self.run.derivatives.iter().filter(|d| d.demand == demand);
         let largest = unit.map(|d| d.value.abs()).filter(|v| v.is_finite()).fold(0.0, f64::max);
         let unit = self.display.unit(quantity(&column.name()), largest);
+        let whole = |unit: &str| {
+            if unit.contains(['/', ' ']) { format!("({unit})") } else { unit.to_owned() }
+        };
         let per = |key: &Key| match (unit.symbol, key.unit.as_str()) {
             (of, "") => of.to_owned(),
-            ("", per) => format!("1/({per})"),
-            (of, per) => format!("{of}/({per})"),
+            ("", per) => format!("1/{}", whole(per)),
+            (of, per) => format!("{}/{}", whole(of), whole(per)),
         };
         let heads = ["", "Value", "Derivative", "Error", "Unit", "% for 1 %", ""];
         let mut rows = vec![heads.map(str::to_owned).to_vec()];
@@ -245,7 +248,7 @@ impl SensitivityReport<'_> {
             panels: vec![panel],
             shaded: Vec::new(),
         };
-        Some(Drawn { id, caption, svg: figure.to_svg() })
+        Some(Drawn::new(figure, caption))
     }
 
     fn json(&self) -> Vec<(&'static str, Json)> {

@@ -4,7 +4,7 @@ use slipstick::motion::GroundMotion;
 use slipstick::response::History;
 use slipstick::slider::Contact;
 
-use super::{Drawn, Scene, drawn};
+use super::{Drawn, Scene};
 use crate::assessment::lines::laid;
 use crate::display::Quantity;
 use crate::number::printed;
@@ -201,7 +201,7 @@ pub fn demand(scene: &Scene) -> Option<Drawn> {
         panels: vec![panel],
         shaded: scene.sliding.clone(),
     };
-    Some(drawn(&figure, caption))
+    Some(Drawn::new(figure, caption))
 }
 
 /// Vertical acceleration at the knots, linear between samples; of two knots at one time the first

@@ -3,7 +3,7 @@
 use slipstick::response::{Demands, StoreyDemands};
 
 use super::trace::Trace;
-use super::{Drawn, Scene, drawn, shown_note, shown_storeys};
+use super::{Drawn, Scene, shown_note, shown_storeys};
 use crate::display::{Quantity, Unit};
 use crate::markup::shortened;
 use crate::number::{compact, printed};
@@ -78,7 +78,7 @@ pub fn sliding_displacement(scene: &Scene) -> Drawn {
         panels: vec![panel],
         shaded: scene.sliding.clone(),
     };
-    drawn(&figure, caption)
+    Drawn::new(figure, caption)
 }
 
 fn sliding_trace(scene: &Scene, unit: Unit) -> Trace {
@@ -204,7 +204,7 @@ pub(super) fn over_time(
         panels,
         shaded: scene.sliding.clone(),
     };
-    drawn(&figure, caption)
+    Drawn::new(figure, caption)
 }
 
 pub(super) fn history_panel(scene: &Scene, quantity: &str, trace: Trace, unit: Unit) -> Panel {

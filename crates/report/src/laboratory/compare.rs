@@ -302,7 +302,7 @@ impl CompareReport<'_> {
                 panels,
                 shaded: shaded.clone(),
             };
-            Drawn { id, caption, svg: figure.to_svg() }
+            Drawn::new(figure, caption)
         };
         let is_acceleration =
             |i: usize| c.compared[i].pair.channel.dimension() == Dimension::Acceleration;

@@ -79,7 +79,7 @@ impl Histories<'_> {
             panels,
             shaded: Vec::new(),
         };
-        Drawn { id: figure.id, caption, svg: figure.to_svg() }
+        Drawn::new(figure, caption)
     }
 
     fn panel(&self, quantity: &str, trace: Trace, unit: Unit) -> Panel {

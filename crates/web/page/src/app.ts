@@ -167,7 +167,7 @@ export class App {
       desk,
       state,
       display: () => this.display,
-      colours: () => palette(this.root),
+      dark: () => this.root.dataset.theme === "dark",
       records: () => this.records.all(),
       choice: (name) => this.records.choice(name),
       text,
@@ -245,6 +245,7 @@ export class App {
     dark.addEventListener("change", () => {
       apply();
       this.histories.restyle(this.stage.restyle());
+      this.bar.restyle();
       if (this.answer) this.drawAnswer();
     });
     apply();

@@ -54,16 +54,16 @@ export function digits(value: number, count = 4): string {
 }
 
 /** Hands a drawing over as a picture, three times as large as it is. */
-export async function png({ id, caption, svg }: { id: string; caption: string; svg: string }): Promise<void> {
-  const image = drawing(svg, caption);
+export async function picture(svg: string, name: string): Promise<void> {
+  const image = drawing(svg, "");
   await image.decode();
-  const [, , , width = "800", height = "400"] = /viewBox="(\S+) (\S+) ([\d.]+) ([\d.]+)"/.exec(svg) ?? [];
+  const [, width = "800", height = "400"] = /viewBox="\S+ \S+ ([\d.]+) ([\d.]+)"/.exec(svg) ?? [];
   const canvas = h("canvas", { width: Math.round(Number(width) * 3), height: Math.round(Number(height) * 3) });
   const c = canvas.getContext("2d")!;
   c.fillStyle = "#fff";
   c.fillRect(0, 0, canvas.width, canvas.height);
   c.drawImage(image, 0, 0, canvas.width, canvas.height);
-  await savePng(canvas, `${id}.png`);
+  await savePng(canvas, name);
 }
 
 /** Hands a canvas over as a picture. */

@@ -2,7 +2,7 @@
 
 import { strToU8, zipSync } from "fflate";
 import { type Desk, ModuleError } from "./desk";
-import { download, drawing, fill, h, png, savePng } from "./dom";
+import { download, drawing, fill, h, picture, savePng } from "./dom";
 import { film } from "./film";
 import type { Stage } from "./stage";
 import type { Display, Drawing, Fault, State } from "./types";
@@ -32,8 +32,16 @@ const PRINT_REST_MS = 900;
 /** The command that repeats the page's run. */
 const command = (display: Display) => `slipstick run model.toml${display === "si" ? "" : ` --display-units ${display}`} --out out`;
 
-/** Hands over a ZIP of texts and bytes by their paths: what a command needs, the command, and what the page made of it. */
-export function hand(name: string, commands: string[], needed: Record<string, string | Uint8Array>, made: Record<string, string>): void {
+/** The table of modes that a model names, by its path there, where it is among the files of the page. */
+function modes(model: string, files: Map<string, Uint8Array>): Record<string, Uint8Array> {
+  const [, , path = ""] = /^[ \t]*modes[ \t]*=[ \t]*(["'])(.+?)\1/m.exec(model) ?? [];
+  const table = files.get(path) ?? files.get(path.replace(/^.*[/\\]/, ""));
+  return table ? { [path]: table } : {};
+}
+
+/** Hands over a ZIP of texts and bytes by their paths: a model and what it names of the files of the page, what a command needs besides, the command, and what the page made of it. */
+export function hand(name: string, commands: string[], [path, model]: [path: string, text: string], files: Map<string, Uint8Array>, besides: Record<string, string | Uint8Array>, made: Record<string, string>): void {
+  const needed = { [path]: model, ...modes(model, files), ...besides };
   const bytes = (data: string | Uint8Array) => (typeof data === "string" ? strToU8(data) : data);
   const under = Object.entries(made).map(([file, text]) => [`page/${file}`, text] as const);
   const all = [...Object.entries(needed), ["command.txt", `${commands.join("\n")}\n`] as const, ...under];
@@ -120,7 +128,7 @@ export class Exports {
     try {
       const made: Record<string, string> = {};
       for (const name of ["summary.json", "history.csv", "events.csv", "report.html"]) made[name] = await this.made(name);
-      hand("slipstick.zip", [this.command], { "model.toml": this.page.text(), ...Object.fromEntries(this.page.records()) }, made);
+      hand("slipstick.zip", [this.command], ["model.toml", this.page.text()], this.page.desk.records, Object.fromEntries(this.page.records()), made);
     } catch (error) {
       if (error instanceof ModuleError) this.page.fault(error.fault);
     }
@@ -130,7 +138,7 @@ export class Exports {
     try {
       for (const drawn of await this.drawings()) {
         if (kind === "svg") download(`${drawn.id}.svg`, drawn.svg, "image/svg+xml");
-        else await png(drawn);
+        else await picture(drawn.svg, `${drawn.id}.png`);
       }
     } catch (error) {
       if (error instanceof ModuleError) this.page.fault(error.fault);

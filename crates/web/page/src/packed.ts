@@ -3,7 +3,7 @@
 import type { Engine } from "./desk";
 
 /** The bytes of a text in base64, unpacked. */
-async function unpack(text: string): Promise<ArrayBuffer> {
+export async function unpack(text: string): Promise<ArrayBuffer> {
   const binary = atob(text.trim());
   const bytes = new Uint8Array(binary.length);
   for (let i = 0; i < bytes.length; i++) bytes[i] = binary.charCodeAt(i);

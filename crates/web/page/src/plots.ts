@@ -65,6 +65,9 @@ export function intervals(time: Float64Array, mode: Int8Array): [number, number]
   return found;
 }
 
+/** How long the values rest before a chart that is not on the screen is drawn, in ms. */
+const LATE_MS = 250;
+
 let sync: uPlot.SyncPubSub | undefined;
 
 export class Chart {
@@ -78,6 +81,10 @@ export class Chart {
   private shape = "";
   private named = "";
   private time = 0;
+  /** Whether it is on the screen, or nearly; what it is to show once it is. */
+  private seen = true;
+  private late: Content | undefined;
+  private timer: ReturnType<typeof setTimeout> | undefined;
 
   constructor(
     private readonly clock: Clock,
@@ -88,6 +95,11 @@ export class Chart {
     clock.charts.push(this);
     this.element.append(h("header", {}, ...head, this.key), this.box, this.readout);
     new ResizeObserver(() => this.resize()).observe(this.box);
+    const look = ([entry]: IntersectionObserverEntry[]) => {
+      this.seen = entry?.isIntersecting ?? true;
+      if (this.seen && this.late) this.draw(this.late);
+    };
+    new IntersectionObserver(look, { rootMargin: "200px" }).observe(this.element);
   }
 
   restyle(colours: Palette): void {
@@ -98,6 +110,19 @@ export class Chart {
 
   show(content: Content): void {
     this.content = content;
+    this.name(content);
+    clearTimeout(this.timer);
+    if (this.seen || !this.plot) {
+      this.draw(content);
+      return;
+    }
+    // What nobody sees is drawn when somebody does, or when the values rest.
+    this.late = content;
+    this.timer = setTimeout(() => this.draw(content), LATE_MS);
+  }
+
+  private draw(content: Content): void {
+    this.late = undefined;
     const { unit } = content;
     const scaled = (values: Float64Array) => {
       if (unit.in_si === 1) return values;
@@ -114,6 +139,10 @@ export class Chart {
       this.plot.setData(data, false);
       this.plot.setScale("x", this.range());
     }
+  }
+
+  /** Names its lines. */
+  private name(content: Content): void {
     const keys = [...content.lines, ...(content.overlays ?? [])];
     const named = JSON.stringify(keys.map(({ label, colour, dash }) => [label, colour, dash]));
     if (named === this.named) return;

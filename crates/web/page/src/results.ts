@@ -49,12 +49,20 @@ function versus(now: Figure, pinned: Figure | undefined): string {
 /** The figures that are read first, beside those of B where one is kept. */
 export function headline(into: HTMLElement, state: State, pinned?: State): void {
   const beside = pinned ? figures(pinned) : [];
-  const item = (figure: Figure) => {
-    const { label, text, unit, over } = figure;
-    const other = versus(figure, beside.find((one) => one.label === label));
-    return h("div", { class: over ? "over" : "" }, h("dt", {}, label), h("dd", {}, text, unit && h("small", {}, unit)), other && h("dd", { class: "versus" }, other));
+  const all = figures(state).map((figure) => ({ ...figure, other: versus(figure, beside.find((one) => one.label === figure.label)) }));
+  // Elements stay while a value moves: a layout less in every picture.
+  const shape = JSON.stringify(all.map(({ label, unit, over, other }) => [label, unit, over, other !== ""]));
+  if (into.dataset.shape !== shape) {
+    into.dataset.shape = shape;
+    fill(into, ...all.map(({ label, unit, over, other }) => h("div", { class: over ? "over" : "" }, h("dt", {}, label), h("dd", {}, h("span", {}), unit && h("small", {}, unit)), other && h("dd", { class: "versus" }))));
+  }
+  const write = (element: Element | null | undefined, text: string) => {
+    if (element && element.textContent !== text) element.textContent = text;
   };
-  fill(into, ...figures(state).map(item));
+  all.forEach(({ text, other }, i) => {
+    write(into.children[i]?.querySelector("dd span"), text);
+    write(into.children[i]?.querySelector(".versus"), other);
+  });
 }
 
 /** What forbids to take the figures as they stand, beside them. */

@@ -437,7 +437,7 @@ export class Scene {
     c.lineTo(to - sign * 9, y - 5);
     c.lineTo(to - sign * 9, y + 5);
     c.fill();
-    this.label(c, "friction", (from + to) / 2, y - 8, "center", this.colours.slide);
+    this.label(c, "friction", from, y - 8, sign > 0 ? "left" : "right", this.colours.slide);
     this.part("Friction", "The force of friction on the block. It holds the block while it sticks, and acts against its motion while it slides. The arrow is longest where the force is largest in this motion.", Math.min(from, to), y - 20, Math.abs(to - from), 26);
   }
 
@@ -638,7 +638,7 @@ export class Loop {
     }
     if (right - left <= 0) [left, right] = [-1e-3, 1e-3];
     if (high - low <= 0) [low, high] = [-1, 1];
-    const edge = { left: 50, right: 14, top: 12, bottom: 36 };
+    const edge = { left: 56, right: 14, top: 12, bottom: 36 };
     const x = (v: number) => edge.left + ((v - left) / (right - left)) * (width - edge.left - edge.right);
     const y = (v: number) => height - edge.bottom - ((v - low) / (high - low)) * (height - edge.top - edge.bottom);
     this.map = { x, y };

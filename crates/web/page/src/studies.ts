@@ -6,7 +6,7 @@ import { SweepTab } from "./sweep";
 import type { Page, Tab } from "./tab";
 import { Workbench } from "./workbench";
 
-const SUITES = [["suite", "Suite"], ["spectrum", "Spectrum"], ["ida", "IDA"], ["fragility", "Fragility"], ["design", "Design"]] as const;
+const SUITES = [["suite", "Suite"], ["spectrum", "Spectrum"], ["sensitivity", "Sensitivity"], ["ida", "IDA"], ["fragility", "Fragility"], ["design", "Design"]] as const;
 
 export function tabs(page: Page): { all: Tab[]; study: StudyTab } {
   const study = new StudyTab(page);

@@ -11,12 +11,13 @@ export class StudyTab implements Tab {
   readonly id = "study";
   readonly label = "Study";
   readonly element: HTMLElement;
-  private readonly text = h("textarea", { "aria-label": "Plan", spellcheck: "false" });
+  private readonly text = h("textarea", { "aria-label": "Plan", spellcheck: "false", rows: 22 });
   private readonly progress = new Progress((text) => this.page.progress(this.id, text));
   private readonly result = new Result();
   private readonly go = h("button", { type: "button", class: "main" }, "Run");
   private readonly pool: Pool;
   private running = false;
+  private views: { restyle(): void }[] = [];
 
   constructor(private readonly page: Page) {
     this.pool = new Pool(page.desk.engine, page.desk.records);
@@ -52,6 +53,10 @@ export class StudyTab implements Tab {
     this.result.check(this.subject);
   }
 
+  restyle(): void {
+    for (const view of this.views) view.restyle();
+  }
+
   settings(): Record<string, string> {
     return { plan: this.text.value };
   }
@@ -72,8 +77,10 @@ export class StudyTab implements Tab {
       const names = this.page.records().map((record) => record.name);
       const of: [string, string, string[]] = [this.text.value, this.page.text(), names];
       const sheet = await this.pool.call("study", ...of, await this.rows(...of), this.page.display());
-      const runs = new Explorer(sheet.runs, this.id, "a click shows the run by itself", (_, row) => void this.take(of, row), [/^level$/, /^peak_sliding_displacement_m$/]);
-      this.result.show(asked, sheetElement(sheet), h("div", { class: "card pad" }, runs.element), h("div", { class: "actions" }, h("button", { type: "button", onclick: () => this.everything(of, sheet) }, "Everything (ZIP)"), h("button", { type: "button", onclick: () => download("study-report.html", sheet.html, "text/html") }, "report.html")));
+      const runs = new Explorer(sheet.runs, this.id, this.page.dark, "a click shows the run by itself", (_, row) => void this.take(of, row), [/^level$/, /^peak_sliding_displacement_m$/]);
+      const { element, views } = sheetElement(sheet, this.page.dark);
+      this.views = [...views, runs];
+      this.result.show(asked, element, h("div", { class: "card pad" }, runs.element), h("div", { class: "actions" }, h("button", { type: "button", onclick: () => this.everything(of, sheet) }, "Everything (ZIP)"), h("button", { type: "button", onclick: () => download("study-report.html", sheet.html, "text/html") }, "report.html")));
       this.update();
       this.page.say(`The study is done. ${sheet.verdict[0] ?? sheet.line}`);
     } catch (error) {
@@ -98,7 +105,7 @@ export class StudyTab implements Tab {
     const model = /^\s*model\s*=\s*"([^"]*)"/m.exec(plan)?.[1] ?? "model.toml";
     const patterns = /^\s*\[records\]/m.test(plan);
     const records = patterns ? names.flatMap((name): [string, Uint8Array][] => [[name.replace(/^.*\//, ""), this.page.desk.records.get(name) ?? new Uint8Array()]]) : [];
-    hand("study.zip", sheet.commands, { "plan.toml": plan, [model]: text, ...Object.fromEntries(records) }, { "report.html": sheet.html });
+    hand("study.zip", sheet.commands, [model, text], this.page.desk.records, { "plan.toml": plan, ...Object.fromEntries(records) }, { "report.html": sheet.html });
   }
 
   private async take(of: [plan: string, text: string, names: string[]], run: number): Promise<void> {

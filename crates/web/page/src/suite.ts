@@ -47,6 +47,7 @@ export class SuiteTab implements Tab {
   private readonly suite = h("div", {});
   private readonly progress = new Progress((text) => this.page.progress(this.id, text));
   private readonly result = new Result();
+  private views: { restyle(): void }[] = [];
   private wanted: Record<string, string> = {};
   private readonly go = h("button", { type: "submit", class: "main", disabled: true }, "Run");
   private helper: Helper | undefined;
@@ -101,6 +102,10 @@ export class SuiteTab implements Tab {
 
   update(): void {
     this.result.check(this.subject);
+  }
+
+  restyle(): void {
+    for (const view of this.views) view.restyle();
   }
 
   settings(): Record<string, string> {
@@ -184,15 +189,17 @@ export class SuiteTab implements Tab {
     // As they were when it was run.
     const { records } = this.page.desk;
     const files = sheet.records.map(({ path, text }) => [path, text ?? records.get(path) ?? records.get(path.replace(/^.*[/\\]/, "")) ?? ""]);
-    const needed = { "model.toml": text, ...Object.fromEntries(files) };
+    const { element, views } = sheetElement(sheet, this.page.dark);
+    const explorer = this.explorer(state, sheet);
+    this.views = explorer ? [...views, explorer] : views;
     this.result.show(
       of,
-      sheetElement(sheet),
-      ...this.explorer(state, sheet),
+      element,
+      ...(explorer ? [h("div", { class: "card pad" }, explorer.element)] : []),
       h(
         "div",
         { class: "actions" },
-        h("button", { type: "button", onclick: () => hand(`${this.id}.zip`, sheet.commands, needed, { "summary.json": sheet.json, "report.html": sheet.html }) }, "Everything (ZIP)"),
+        h("button", { type: "button", onclick: () => hand(`${this.id}.zip`, sheet.commands, ["model.toml", text], records, Object.fromEntries(files), { "summary.json": sheet.json, "report.html": sheet.html }) }, "Everything (ZIP)"),
         h("button", { type: "button", onclick: () => download(`${this.id}-report.html`, sheet.html, "text/html") }, "report.html"),
         h("button", { type: "button", onclick: () => download(`${this.id}-summary.json`, sheet.json, "application/json") }, "summary.json"),
       ),
@@ -201,16 +208,18 @@ export class SuiteTab implements Tab {
   }
 
   /** The runs, each of which can be shown by itself; of a design its keys are taken over. */
-  private explorer(state: State, sheet: Sheet): HTMLElement[] {
+  private explorer(state: State, sheet: Sheet): Explorer | undefined {
+    // Derivatives are no runs.
+    if (this.id === "sensitivity") return undefined;
     const enough = sheet.runs.filter(({ columns }) => columns.filter(({ values }) => values.some((value) => typeof value === "number")).length > 1);
     const tables = this.id === "spectrum" ? [...enough].reverse() : enough;
-    if (tables.length === 0) return [];
+    if (tables.length === 0) return undefined;
     const demand = this.options().find(([name]) => name === "demand")?.[1] ?? "peak_sliding_displacement_m";
-    const axes: Record<string, [RegExp, RegExp]> = { ida: [new RegExp(`^${demand}$`), /^level$/], fragility: [new RegExp(`^${demand}$`), /^level$/], design: [/displacement_m$/, /acceleration_m_per_s2$/] };
+    const axes: Record<string, [RegExp, RegExp]> = { ida: [new RegExp(`^${demand}$`), /^level$/], fragility: [new RegExp(`^${demand}$`), /^level$/], design: [/displacement_m$/, /acceleration_m_per_s2$/], suite: [/^peak_sliding_displacement_m/, /^(storey\d+_|block\.)peak_acceleration/] };
     const coupled = this.options().some(([name]) => name === "friction");
     const take = (table: RunTable, row: number) => this.take(state, coupled, sheet, table, row);
     const word = this.id === "design" ? "a click uses this design" : "a click shows the run by itself";
-    return [h("div", { class: "card pad" }, new Explorer(tables, this.id, word, take, axes[this.id] ?? [/^(?!)/, /^peak_sliding_displacement_m/]).element)];
+    return new Explorer(tables, this.id, this.page.dark, word, take, axes[this.id] ?? [/^(?!)/, /^peak_sliding_displacement_m/]);
   }
 
   private take(state: State, coupled: boolean, sheet: Sheet, { columns }: RunTable, row: number): void {

@@ -1,11 +1,15 @@
 /** How the model's own run follows one of its values: slices of it on several workers. */
 
-import uPlot from "uplot";
 import { labelOf } from "./controls";
 import { ModuleError, Pool } from "./desk";
 import { fill, h } from "./dom";
+import { FigureView } from "./figure";
 import { type Page, Progress, Result, subject, type Tab, value } from "./tab";
-import type { Setting, State } from "./types";
+import type { AxisData, FigureData, SeriesData, Setting, State, Unit } from "./types";
+
+type Style = Pick<SeriesData, "colour" | "width" | "dashes">;
+const FIRST: Style = { colour: "#0b3c6f", width: 1.7, dashes: "" };
+const SECOND: Style = { colour: "#b3541e", width: 1.7, dashes: "7 3" };
 
 export class SweepTab implements Tab {
   readonly id = "sweep";
@@ -18,6 +22,7 @@ export class SweepTab implements Tab {
   private readonly progress = new Progress((text) => this.page.progress(this.id, text));
   private readonly go = h("button", { type: "submit", class: "main" }, "Run");
   private readonly charts = h("div", { class: "plots" });
+  private views: FigureView[] = [];
   private readonly result = new Result();
   private pool: Pool;
   private running = false;
@@ -67,6 +72,10 @@ export class SweepTab implements Tab {
 
   update(): void {
     this.result.check(this.key());
+  }
+
+  restyle(): void {
+    for (const view of this.views) view.restyle();
   }
 
   settings(): Record<string, string> {
@@ -136,87 +145,39 @@ export class SweepTab implements Tab {
 
   private show(rows: Float64Array, state: State, symbol: string, inSi: number, now: number, path: string): void {
     const count = rows.length / 6;
-    const column = (k: number, unit: number, absolute = false) =>
-      Array.from({ length: count }, (_, i) => {
-        const v = rows[6 * i + k]! / unit;
-        return Number.isFinite(v) ? (absolute ? Math.abs(v) : v) : null;
-      });
-    const x = column(0, inSi) as number[];
     const { length, acceleration } = state.units;
-    const colour = this.page.colours();
-    const one = (heading: string, title: string, unit: string, lines: [string, string, (number | null)[]][]) => {
-      const box = h("div", { class: "chart" });
-      const key = h(
-        "ul",
-        { class: "key" },
-        ...lines.map(([label, stroke]) => {
-          const item = h("li", {}, label);
-          item.style.setProperty("--swatch", stroke);
-          return item;
-        }),
-      );
-      const card = h("div", { class: "card plot" }, h("header", {}, h("h2", {}, `${heading} over ${labelOf(path).toLowerCase()}`), key), box);
-      this.charts.append(card);
-      const axis = { stroke: colour.quiet!, grid: { stroke: colour.line!, width: 1 }, ticks: { stroke: colour.line!, width: 1, size: 4 }, font: "12px system-ui, sans-serif", labelFont: "12px system-ui, sans-serif" };
-      const plot = new uPlot(
-        {
-          width: Math.max(260, box.clientWidth),
-          height: 240,
-          padding: [10, 14, 0, 0],
-          legend: { show: false },
-          cursor: { sync: { key: "sweep" }, y: false, drag: { x: false, y: false } },
-          scales: { x: { time: false }, y: { range: (_, low, high) => [Math.min(0, low ?? 0), (high ?? 1) * 1.06] } },
-          axes: [
-            { ...axis, label: `${labelOf(path)}${symbol ? ` (${symbol})` : ""}`, labelSize: 18, size: 30 },
-            { ...axis, label: `${title} (${unit})`, labelSize: 18, size: 50 },
-          ],
-          series: [{}, ...lines.map(([label, stroke]) => ({ label, stroke, width: 1.7, pxAlign: 0, points: { show: false } }))],
-          hooks: {
-            draw: [
-              (plot) => {
-                const at = plot.valToPos(now / inSi, "x", true);
-                const c = plot.ctx;
-                c.save();
-                c.strokeStyle = colour.slide!;
-                c.lineWidth = 2;
-                c.setLineDash([6, 4]);
-                c.beginPath();
-                c.moveTo(at, plot.bbox.top);
-                c.lineTo(at, plot.bbox.top + plot.bbox.height);
-                c.stroke();
-                c.restore();
-              },
-            ],
-          },
-        },
-        [x, ...lines.map(([, , values]) => values)] as uPlot.AlignedData,
-        box,
-      );
-      plot.over.addEventListener("click", () => {
-        const left = plot.cursor.left ?? -1;
-        if (left < 0) return;
-        const taken = Number(plot.posToVal(left, "x").toPrecision(3));
-        const settings: Setting[] = [[path, symbol ? `${taken} ${symbol}` : String(taken)]];
-        if (path === "slider.kinetic_friction") {
-          const ratio = (value(state, "slider.static_friction")?.value ?? now) / now;
-          settings.unshift(["slider.static_friction", String(Number((taken * ratio).toPrecision(6)))]);
-        }
-        this.of = "";
-        this.page.set(settings);
+    const title = `${labelOf(path)}${symbol ? ` (${symbol})` : ""}`;
+    const places = Array.from({ length: count }, (_, i) => rows[6 * i]! / inSi);
+    const x: AxisData = { label: title, min: Math.min(...places), max: Math.max(...places), log: false, names: [] };
+    const one = (id: string, heading: string, unit: Unit, lines: [label: string, column: number, style: Style][]) => {
+      const series = lines.map(([label, column, style]): SeriesData => {
+        const points = places.flatMap((place, i) => [place, Math.abs(rows[6 * i + column]!) / unit.in_si]);
+        return { label, ...style, shape: "history", fill: "", points };
       });
-      new ResizeObserver(() => {
-        const width = box.clientWidth;
-        if (width > 0 && Math.abs(width - plot.width) > 1) plot.setSize({ width, height: 240 });
-      }).observe(box);
+      const high = Math.max(...series.flatMap(({ points }) => points.filter((_, i) => i % 2 === 1).map((value) => (Number.isFinite(value) ? value! : 0))));
+      const y: AxisData = { label: `${heading} (${unit.symbol})`, min: 0, max: high > 0 ? high * 1.06 : 1, log: false, names: [] };
+      const over = `${heading} over ${labelOf(path).toLowerCase()}`;
+      const figure: FigureData = { id, title: over, layout: "stacked", panels: [{ x, y, height: 230, series, limits: [], peak: null, note: "", marks: [now / inSi] }], shaded: [] };
+      const view = new FigureView(figure, { dark: this.page.dark, pick: (value) => this.take(value, state, symbol, inSi, now, path), word: "a click takes the value over" }, h("span", {}, over));
+      this.views.push(view);
+      this.charts.append(h("div", { class: "card plot" }, view.element));
     };
     this.charts.replaceChildren();
-    one("Sliding displacement", "Sliding", length.symbol, [
-      ["peak", colour.stick!, column(1, length.in_si)],
-      ["residual, in size", colour.slide!, column(2, length.in_si, true)],
-    ]);
-    one("Peak accelerations", "Acceleration", acceleration.symbol, [
-      ["block", colour.block!, column(3, acceleration.in_si)],
-      ...(state.structure.storeyMasses_kg.length > 0 ? [["roof", colour.roof!, column(4, acceleration.in_si)] as [string, string, (number | null)[]]] : []),
-    ]);
+    this.views = [];
+    const storeys = state.structure.storeyMasses_kg.length > 0;
+    one("sweep-displacement", "Sliding displacement", length, [["peak", 1, FIRST], ["residual, in size", 2, SECOND]]);
+    one("sweep-acceleration", "Peak accelerations", acceleration, [["block", 3, FIRST], ...(storeys ? [["roof", 4, SECOND] as [string, number, Style]] : [])]);
+  }
+
+  /** Takes a value of the axis over into the model. */
+  private take(place: number, state: State, symbol: string, inSi: number, now: number, path: string): void {
+    const taken = Number(place.toPrecision(3));
+    const settings: Setting[] = [[path, symbol ? `${taken} ${symbol}` : String(taken)]];
+    if (path === "slider.kinetic_friction") {
+      const ratio = (value(state, "slider.static_friction")?.value ?? now) / now;
+      settings.unshift(["slider.static_friction", String(Number((taken * inSi * ratio).toPrecision(6)))]);
+    }
+    this.of = "";
+    this.page.set(settings);
   }
 }

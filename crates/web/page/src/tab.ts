@@ -1,10 +1,10 @@
 /** What the tabs over many runs have in common: what they need of the page, progress, a sheet of results. */
 
 import type { Desk } from "./desk";
-import { download, drawing, fill, h, png } from "./dom";
+import { fill, h } from "./dom";
+import { FigureView } from "./figure";
 import type { RecordChoice } from "./motion";
 import { warningList } from "./results";
-import type { Palette } from "./scene";
 import type { Display, Fault, InputValue, Run, Setting, Sheet, State } from "./types";
 
 /** What the tabs need of the page. */
@@ -12,7 +12,8 @@ export interface Page {
   desk: Desk;
   state: () => State | undefined;
   display: () => Display;
-  colours: () => Palette;
+  /** Whether it stands on a dark ground. */
+  dark: () => boolean;
   /** Names of all records, with their words. */
   records: () => { name: string; label: string }[];
   /** What a record's file does not say. */
@@ -39,6 +40,8 @@ export interface Tab {
   open(): void;
   /** Told where model or records may have changed. */
   update?(): void;
+  /** Told where the ground has become dark or light. */
+  restyle?(): void;
   /** What is set on it, for the address. */
   settings?(): Record<string, string>;
   restore?(settings: Record<string, string>): void;
@@ -116,10 +119,12 @@ export class Progress {
   }
 }
 
-export function sheetElement(sheet: Sheet): HTMLElement {
+/** A result laid out, its figures alive. */
+export function sheetElement(sheet: Sheet, dark: () => boolean): { element: HTMLElement; views: FigureView[] } {
+  const views: FigureView[] = [];
   const table = ({ heading, rows }: Sheet["tables"][number]) => {
     const [head = [], ...body] = rows;
-    const cell = (text: string, i: number) => h("td", { class: i > 0 ? "number" : "" }, text);
+    const cell = (text: string, i: number) => h("td", { class: i > 0 ? "number" : "" }, text.replace(/^-(?=\d)/, "−"));
     return [
       h("h3", {}, heading),
       h(
@@ -134,23 +139,13 @@ export function sheetElement(sheet: Sheet): HTMLElement {
       ),
     ];
   };
-  const figure = (drawn: Sheet["figures"][number]) =>
-    h(
-      "figure",
-      {},
-      drawing(drawn.svg, drawn.caption),
-      h(
-        "figcaption",
-        {},
-        drawn.caption,
-        " ",
-        h("button", { type: "button", onclick: () => download(`${drawn.id}.svg`, drawn.svg, "image/svg+xml") }, "SVG"),
-        " ",
-        h("button", { type: "button", onclick: () => void png(drawn) }, "PNG"),
-      ),
-    );
+  const figure = (drawn: Sheet["figures"][number]) => {
+    const view = new FigureView(drawn, { dark }, h("span", {}, drawn.caption));
+    views.push(view);
+    return view.element;
+  };
   const [first, ...others] = sheet.figures;
-  return h(
+  const element = h(
     "article",
     { class: "card pad sheet" },
     h("h2", {}, `${sheet.kind}. ${sheet.line}`),
@@ -165,6 +160,7 @@ export function sheetElement(sheet: Sheet): HTMLElement {
     h("h3", {}, "Method and limits"),
     ...sheet.method.map((line) => h("p", {}, line)),
   );
+  return { element, views };
 }
 
 /** The value at a path of the model. */

@@ -56,6 +56,11 @@ export class TabBar {
     for (const tab of this.tabs) tab.update?.();
   }
 
+  /** Tells all that the ground has become dark or light. */
+  restyle(): void {
+    for (const tab of this.tabs) tab.restyle?.();
+  }
+
   /** Opens one; the first where there is none of that name. */
   select(id: string): void {
     this.tab = this.buttons.has(id) ? id : this.tabs[0]!.id;
@@ -65,6 +70,10 @@ export class TabBar {
       const button = this.buttons.get(tab.id)!;
       button.setAttribute("aria-selected", String(on));
       button.tabIndex = on ? 0 : -1;
+      // On a narrow screen the bar scrolls.
+      const { offsetLeft: left, offsetWidth: width } = button;
+      const { scrollLeft, clientWidth } = this.element;
+      if (on && (left < scrollLeft || left + width > scrollLeft + clientWidth)) this.element.scrollLeft = left - (clientWidth - width) / 2;
       if (on) tab.open();
     }
   }

@@ -145,7 +145,7 @@ export interface Sheet {
   tables: { heading: string; rows: string[][] }[];
   notes: string[];
   method: string[];
-  figures: Drawing[];
+  figures: (FigureData & { caption: string })[];
   /** What makes it again beside the model: lines of commands, and the records; with a text where that is not the file itself. */
   commands: string[];
   records: { path: string; text: string | null; file: string }[];
@@ -153,6 +153,47 @@ export interface Sheet {
   runs: RunTable[];
   html: string;
   json: string;
+}
+
+/** One direction of a drawing: from `min` to `max`, or names at 1, 2, 3 …. */
+export interface AxisData {
+  label: string;
+  min: number;
+  max: number;
+  log: boolean;
+  names: string[];
+}
+
+/** A line, a band or points of a drawing; `points` are x, y, x, y …, a value that is none null. */
+export interface SeriesData {
+  label: string;
+  colour: string;
+  width: number;
+  dashes: string;
+  shape: "history" | "area" | "curve" | "band" | "dots" | "named";
+  fill: string;
+  points: (number | null)[];
+}
+
+export interface PanelData {
+  x: AxisData;
+  y: AxisData;
+  height: number;
+  series: SeriesData[];
+  limits: { value: number; label: string; colour: string; width: number; dashes: string }[];
+  peak: [number, number] | null;
+  note: string;
+  /** Values of x that are marked. */
+  marks?: number[];
+}
+
+/** A drawing as the report lays it out, in the colours of print. */
+export interface FigureData {
+  id: string;
+  title: string;
+  layout: "stacked" | "beside" | "square";
+  panels: PanelData[];
+  shaded: [number, number][];
 }
 
 /** A column of a table of runs; values in SI, whose unit is `si`. */

@@ -8,6 +8,7 @@ import { dirname, join, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { unzipSync } from "fflate";
 import { compare } from "./compare.mjs";
+import { figures } from "./figures.mjs";
 import { field, setField, slider } from "./fields.mjs";
 import { minute } from "./minute.mjs";
 import { scenes } from "./scenes.mjs";
@@ -546,7 +547,7 @@ test("a trap ends its worker only", () =>
 test("a sweep runs in slices, and can be cancelled", () =>
   on(async (page) => {
     await page.locator("#tab-sweep").click();
-    await page.locator("#panel-sweep .u-over").first().waitFor();
+    await page.locator("#panel-sweep .figure-plot svg").first().waitFor();
     assert.equal(await page.locator("#panel-sweep .plot").count(), 2);
     await page.getByLabel("Number of runs").fill("50000");
     await page.locator("#panel-sweep button.main").click();
@@ -556,7 +557,7 @@ test("a sweep runs in slices, and can be cancelled", () =>
     await page.getByLabel("Number of runs").fill("40");
     await page.locator("#panel-sweep button.main").click();
     await page.locator("#panel-sweep .progress").waitFor({ state: "hidden" });
-    const box = await page.locator("#panel-sweep .u-over").first().boundingBox();
+    const box = await page.locator("#panel-sweep .figure-plot svg").first().boundingBox();
     await page.mouse.click(box.x + box.width * 0.5, box.y + box.height / 2);
     await page.waitForFunction(() => !/kinetic_friction = 0.050/.test(document.querySelector("#model-text").value));
   }));
@@ -640,9 +641,9 @@ for (const [id, heading] of [["suite", /response histories/i], ["spectrum", /sli
       await page.locator(`#panel-${id} button.main`).click();
       await page.locator(`#panel-${id} .sheet`).waitFor({ timeout: 60000 });
       assert.match(await page.locator(`#panel-${id} .sheet h2`).innerText(), heading);
-      const image = page.locator(`#panel-${id} .sheet img`).first();
-      await image.waitFor();
-      assert.ok(await image.evaluate(async (image) => (await image.decode(), image.naturalWidth > 100)));
+      const drawn = page.locator(`#panel-${id} .sheet .figure-plot svg[role]`).first();
+      await drawn.waitFor();
+      assert.ok(await drawn.evaluate((svg) => svg.clientWidth > 100 && svg.querySelectorAll("path").length > 2));
       await page.screenshot({ path: join(shots, `tab-${id}.png`), fullPage: true });
     }));
 }
@@ -710,7 +711,7 @@ for (const [scheme, forcedColors] of [["light", "none"], ["dark", "none"], ["lig
         await page.locator(".guide .answer h3").waitFor();
         await page.locator(".legend summary").click();
         await page.addScriptTag({ path: axe }).catch(async () => page.evaluate(readFileSync(axe, "utf8")));
-        for (const tab of ["motion", "sweep", "suite", "spectrum", "ida", "fragility", "design", "study"]) {
+        for (const tab of ["motion", "sweep", "suite", "spectrum", "sensitivity", "ida", "fragility", "design", "study"]) {
           await page.locator(`#tab-${tab}`).click();
           if (tab === "spectrum") {
             await page.locator("#panel-spectrum button.main").click();
@@ -731,6 +732,7 @@ for (const [scheme, forcedColors] of [["light", "none"], ["dark", "none"], ["lig
 loading(test, on, site);
 whole(test, on, root);
 runs(test, on);
+figures(test, on);
 
 test("it opens without a network once it was open, and asks for nothing after it", async () => {
   const opened = await open(chromium, site.url, { serviceWorkers: "allow" });
@@ -742,7 +744,7 @@ test("it opens without a network once it was open, and asks for nothing after it
     await setField(page, "Kinetic friction", "0.04");
     await settled(page);
     await page.locator("#tab-sweep").click();
-    await page.locator("#panel-sweep .u-over").first().waitFor();
+    await page.locator("#panel-sweep .figure-plot svg").first().waitFor();
     assert.equal(site.asked.length, count, `asked for ${site.asked.slice(count)}`);
     await context.setOffline(true);
     await page.reload();
@@ -761,7 +763,7 @@ test("slipstick.html opens from a file", () =>
       await setField(page, "Kinetic friction", "0.04");
       await settled(page);
       await page.locator("#tab-sweep").click();
-      await page.locator("#panel-sweep .u-over").first().waitFor();
+      await page.locator("#panel-sweep .figure-plot svg").first().waitFor();
     },
     {},
     pathToFileURL(join(folder, "slipstick.html")).href,

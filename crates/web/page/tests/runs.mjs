@@ -13,7 +13,7 @@ async function ran(page, id, timeout = 90000) {
 
 /** Points at one of the runs that are drawn, and returns what is said of it; `press` clicks there. */
 async function pointed(page, id, number) {
-  const dot = page.locator(`#panel-${id} .explorer circle.run`).nth(number);
+  const dot = page.locator(`#panel-${id} .explorer circle[data-point]`).nth(number);
   await dot.scrollIntoViewIfNeeded();
   const box = await dot.boundingBox();
   const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
@@ -68,7 +68,7 @@ export function runs(test, on) {
       async (page) => {
         await ran(page, "spectrum");
         const explorer = page.locator("#panel-spectrum .explorer");
-        const dots = () => explorer.locator("circle.run").count();
+        const dots = () => explorer.locator("circle[data-point]").count();
         const all = await dots();
         assert.ok(all >= 100, `${all} runs`);
         await explorer.locator("svg").first().scrollIntoViewIfNeeded();
@@ -81,7 +81,7 @@ export function runs(test, on) {
         await explorer.getByRole("button", { name: "Whole" }).click();
         assert.equal(await dots(), all);
         await explorer.getByLabel("Up").selectOption("block.peak_acceleration_m_per_s2");
-        assert.match(await explorer.locator("text.axis").last().textContent(), /^Block peak acceleration \(.+\)$/);
+        assert.match(await explorer.locator("text.axis").first().textContent(), /^Block peak acceleration \(.+\)$/);
         for (const [name, ending] of [["CSV", /\.csv$/], ["SVG", /\.svg$/], ["PNG", /\.png$/]]) {
           const [got] = await Promise.all([page.waitForEvent("download"), explorer.getByRole("button", { name, exact: true }).click()]);
           assert.match(got.suggestedFilename(), ending);

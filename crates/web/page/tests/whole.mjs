@@ -96,7 +96,66 @@ export function whole(test, on, root) {
       }
     }, { acceptDownloads: true }));
 
-  for (const id of ["suite", "spectrum", "ida", "fragility", "design"]) {
+  test("a dropped table of modes is used, and the ZIPs hold it: their commands make the same bytes", () =>
+    on(async (page) => {
+      if (!command) return skipped;
+      const model = readFileSync(join(root, "examples/structures/building.toml"), "utf8").replace("../records/taft-021.txt", "records/taft-021.txt");
+      await drop(page, ["building-modes.csv", readFileSync(join(root, "examples/structures/building-modes.csv"))], ["building.toml", model]);
+      await page.evaluate(() => globalThis.dropped);
+      await page.waitForFunction(() => globalThis.slipstick.answer?.state.name === "Building by its modes, Taft");
+      await settled(page);
+      assert.deepEqual(await page.evaluate(() => globalThis.slipstick.answer.state.structure.storeyNames), ["First", "Second", "Roof"]);
+      const repeats = async (button, files) => {
+        const [got] = await Promise.all([page.waitForEvent("download"), button.click()]);
+        const out = temporary();
+        try {
+          await repeated(got, command, out.folder);
+          assert.equal(readFileSync(join(out.folder, "building-modes.csv"), "utf8"), readFileSync(join(root, "examples/structures/building-modes.csv"), "utf8"));
+          same(out.folder, files);
+        } finally {
+          out.remove();
+        }
+      };
+      await page.getByText("Export", { exact: true }).click();
+      await repeats(page.getByRole("button", { name: "Everything (ZIP)" }).first(), ["report.html", "summary.json", "history.csv", "events.csv"]);
+      await page.locator("#tab-suite").click();
+      const panel = page.locator("#panel-suite");
+      await panel.locator("button.main:not([disabled])").click();
+      await panel.locator(".sheet").waitFor({ timeout: 90000 });
+      await repeats(panel.getByRole("button", { name: "Everything (ZIP)" }), ["report.html", "summary.json"]);
+    }, { acceptDownloads: true }));
+
+  test("the same motion under two names is warned of, in the words of the command", () =>
+    on(async (page) => {
+      if (!command) return skipped;
+      const rows = Array.from({ length: 800 }, (_, i) => `${(i * 0.01).toFixed(2)},${(3 * Math.sin(0.06 * i)).toFixed(6)}`);
+      const columns = `time_s,acceleration_m_per_s2\n${rows.join("\n")}\n`;
+      await drop(page, ["first.csv", columns], ["again.csv", columns]);
+      await page.evaluate(() => globalThis.dropped);
+      await page.locator("#tab-suite").click();
+      const panel = page.locator("#panel-suite");
+      await panel.locator("button.main:not([disabled])").click();
+      await panel.locator(".sheet").waitFor({ timeout: 90000 });
+      const said = "first.csv and again.csv are the same motion: it counts twice";
+      assert.ok((await panel.locator(".sheet").innerText()).includes(said));
+      const [got] = await Promise.all([page.waitForEvent("download"), panel.getByRole("button", { name: "Everything (ZIP)" }).click()]);
+      const out = temporary();
+      try {
+        await repeated(got, command, out.folder);
+        same(out.folder, ["summary.json", "report.html"]);
+      } finally {
+        out.remove();
+      }
+      // A study says it too.
+      await page.locator("#tab-study").click();
+      const plan = page.locator("#panel-study textarea");
+      await plan.fill((await plan.inputValue()).replace('["*.txt"]', '["*.csv"]').replace(/^units.*\n|^dt .*\n/gm, ""));
+      await page.locator("#panel-study button.main").click();
+      await page.locator("#panel-study .sheet").waitFor({ timeout: 60000 });
+      assert.ok((await page.locator("#panel-study .sheet").innerText()).includes("are the same motion: it counts twice"));
+    }, { acceptDownloads: true }));
+
+  for (const id of ["suite", "spectrum", "sensitivity", "ida", "fragility", "design"]) {
     test(`the ZIP of ${id} holds all that its command needs, which makes the same of it`, () =>
       on(async (page) => {
         if (!command) return skipped;

@@ -90,6 +90,16 @@ fn exact_search_equals_the_full_grid_of_200_by_200() {
     }));
 }
 
+/// Of few designs, too, the front of the first bounds the others.
+#[test]
+fn search_of_a_small_grid_leaves_out_half_of_its_runs() {
+    let target = Target { gap_m: 0.32, probability: 0.9, acceleration_share: 0.5 };
+    let (side, records) = (17, 42);
+    let found = search(&target, side * side, records, run(side)).unwrap();
+    let all = (side * side * records) as u64;
+    assert!(2 * found.runs < all, "{} runs of {all}", found.runs);
+}
+
 #[test]
 fn prop_search_equals_the_full_grid_for_any_target() {
     for gap_m in [0.12, 0.2, 0.3, 0.5, 2.0] {

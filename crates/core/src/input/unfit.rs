@@ -1,0 +1,70 @@
+//! Records that are not what they would be run as.
+
+use super::loaded::Loaded;
+
+/// A record that is not what it is to be run as.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{name}: expected {expected}, found {found}")]
+pub struct Unfit {
+    /// Its place among the records.
+    pub place: usize,
+    /// Its name.
+    pub name: String,
+    /// What was expected.
+    pub expected: String,
+    /// What was found.
+    pub found: String,
+}
+
+/// Refuses vertical components where horizontal ones are run, and pairs that are none; gives a sentence
+/// for each motion that stands there under two names. The components of pairs stand beside each other.
+///
+/// A channel that was asked for by name is the one that is wanted, whatever it is.
+///
+/// # Errors
+/// [`Unfit`], which names the record.
+pub fn refuse_unfit(
+    records: &[(String, &Loaded)],
+    channel_asked: bool,
+    pairs: bool,
+) -> Result<Vec<String>, Unfit> {
+    let unfit = |place: usize, expected: &str, found: String| {
+        let name = records[place].0.clone();
+        Err(Unfit { place, name, expected: expected.to_owned(), found })
+    };
+    for (place, (name, loaded)) in records.iter().enumerate().filter(|_| !channel_asked) {
+        if let Some(reason) = loaded.origin.vertical(file_name(name)) {
+            let expected = "a horizontal component (a vertical one is given beside it, as the vertical motion)";
+            return unfit(place, expected, format!("a vertical one: {reason}"));
+        }
+    }
+    if pairs {
+        for (pair, components) in records.chunks_exact(2).enumerate() {
+            let [(first, a), (second, b)] = components else { continue };
+            let (place, expected) = (2 * pair + 1, format!("the other component of {first}"));
+            if first == second || same(a, b) {
+                return unfit(place, &expected, "the same motion".to_owned());
+            }
+            if let Some(found) = a.origin.apart(&b.origin, [file_name(first), file_name(second)]) {
+                return unfit(place, &expected, format!("components {found}"));
+            }
+        }
+    }
+    let mut twice = Vec::new();
+    for (i, (name, loaded)) in records.iter().enumerate() {
+        let twin = records[..i].iter().find(|(other, known)| other != name && same(known, loaded));
+        if let Some((other, _)) = twin {
+            twice.push(format!("{other} and {name} are the same motion: it counts twice"));
+        }
+    }
+    Ok(twice)
+}
+
+fn file_name(path: &str) -> &str {
+    path.rsplit(['/', '\\']).next().unwrap_or(path)
+}
+
+fn same(a: &Loaded, b: &Loaded) -> bool {
+    a.motion.horizontal_m_per_s2() == b.motion.horizontal_m_per_s2()
+        && a.motion.times_s() == b.motion.times_s()
+}
