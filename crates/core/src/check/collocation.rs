@@ -101,8 +101,9 @@ impl Rule {
     ) -> [L; 2] {
         let (mut dx, mut dv) = (rate(0) * self.aa[i][0], rate(0) * self.a[i][0]);
         for j in 1..NODES {
-            dx += rate(j) * self.aa[i][j];
-            dv += rate(j) * self.a[i][j];
+            let rate = rate(j);
+            dx += rate * self.aa[i][j];
+            dv += rate * self.a[i][j];
         }
         [x0 + h * (v0 * self.c[i] + h * dx), v0 + h * dv]
     }
@@ -110,11 +111,12 @@ impl Rule {
     /// The same at the end.
     #[inline(always)]
     pub(super) fn end<L: Lane>(&self, h: L, [x0, v0]: [L; 2], rate: impl Fn(usize) -> L) -> [L; 2] {
-        let share = |j: usize| rate(j) * self.weights[j];
-        let (mut dx, mut dv) = (share(0) * (1.0 - self.c[0]), share(0));
+        let mut dv = rate(0) * self.weights[0];
+        let mut dx = dv * (1.0 - self.c[0]);
         for j in 1..NODES {
-            dx += share(j) * (1.0 - self.c[j]);
-            dv += share(j);
+            let share = rate(j) * self.weights[j];
+            dx += share * (1.0 - self.c[j]);
+            dv += share;
         }
         [x0 + h * (v0 + h * dx), v0 + h * dv]
     }

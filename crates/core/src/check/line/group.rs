@@ -334,6 +334,7 @@ impl Group {
     }
 
     /// 1 where an interface sticks, and the sign of its sliding.
+    #[inline(always)]
     pub(super) fn interface(&self, i: usize) -> [&Eight; 2] {
         match i.checked_sub(1).map(|e| &self.carried[e]) {
             None => [&self.stuck, &self.sign],

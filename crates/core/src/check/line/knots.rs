@@ -93,10 +93,10 @@ pub(super) fn rates_of<'h>(
     n: usize,
     degree: usize,
 ) -> [(&'h [f64], [usize; 2]); 2] {
-    let floor = |floor: usize| match floor {
+    let floor = inlined!(|floor: usize| match floor {
         0 => (&h.block_acceleration_m_per_s2[..], [1, 0]),
         i => (&h.storey_acceleration_m_per_s2[..], [n, i - 1]),
-    };
+    });
     match degree {
         0 => [floor(0), (&h.table_acceleration_m_per_s2, [1, 0])],
         i if i <= n => [floor(i), floor(0)],

@@ -173,9 +173,8 @@ impl LaneJudge<'_> {
         places: &Places,
         later: usize,
     ) -> f64x8<S> {
-        let [own, under] = rates_of(self.history, self.structure, n, degree);
-        let [own, under] = [own, under].map(|(list, at)| places.read(simd, list, later, at));
-        own - under
+        let [(own, at), (under, below)] = rates_of(self.history, self.structure, n, degree);
+        places.read(simd, own, later, at) - places.read(simd, under, later, below)
     }
 
     /// Solves the collocation equations of every lane by iteration, which begins with the line between
