@@ -233,7 +233,8 @@ fn opensees_report_and_eigenvectors() {
 fn modes_that_sum_to_more_by_their_last_digit_have_all_of_the_mass() {
     let more = REPORT.replacen("166.41 ", "169.819 ", 1);
     let table = opensees(&more).expect("a table");
-    assert_eq!(table.sum(1, None), Some(1.0));
+    let sum = table.sum(1, None).expect("a mass");
+    assert!((sum - 1.0).abs() < 1e-15, "{sum}");
     let note = table.notes.last().expect("a note");
     assert!(note.starts_with("the effective masses along y sum to 1.0000"), "{note}");
 }
