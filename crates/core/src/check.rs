@@ -7,33 +7,20 @@
 //! matrices nor modes nor propagators.
 
 mod collocation;
-mod courses;
 mod damping;
-mod decisions;
 mod demands;
 mod energy;
-mod equations;
 mod events;
 mod ground;
-mod group;
-mod intervals;
 mod judge;
-mod knots;
 mod lane;
 mod law;
 mod line;
-mod maps;
-mod margins;
 mod near;
-mod order;
 mod outputs;
-mod path;
-mod peaks;
 mod plane;
 mod rate;
-mod stored;
 mod structure;
-mod sweep;
 
 use core::fmt;
 

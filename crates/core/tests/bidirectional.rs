@@ -1,5 +1,5 @@
 //! Two horizontal directions: every verification case of `data/reference/bidirectional.json` with constant
-//! and with exponential friction, as two solvers that share nothing agree on it.
+//! and with exponential friction, as two solvers that share nothing agree on it, and the judge.
 
 // Every case says how close it came. Helpers of tests may panic as tests do.
 #![allow(clippy::disallowed_macros, clippy::expect_used)]
@@ -8,6 +8,7 @@ mod common;
 
 use common::in_plane::{cases, list, model, motion, number, numbers};
 use serde_json::Value;
+use slipstick::check::check;
 use slipstick::response::{Demands, EventKind, History, Mode, Response};
 use slipstick::solver::exact;
 
@@ -153,7 +154,8 @@ fn compare_states(case: &Value, response: &Response, compared: &mut Compared) {
 /// Fails with every number of the case that is outside its stated tolerance.
 fn run(id: &str) {
     let case = cases().into_iter().find(|case| case["id"] == id).expect("the case");
-    let response = exact(&model(&case), &motion(&case)).expect("a response");
+    let (model, motion) = (model(&case), motion(&case));
+    let response = exact(&model, &motion).expect("a response");
     let mut compared = Compared::default();
     compare_events(&case, &response, &mut compared);
     compare_states(&case, &response, &mut compared);
@@ -162,9 +164,14 @@ fn run(id: &str) {
         let found = figure(&response, path);
         compared.compare(path, found, number(&expected["value"]), number(&expected["tol_abs"]));
     }
+    let c = check(&model, &motion, &response);
+    let judged = c.equilibrium_residual.max(c.friction_excess).max(c.energy_balance_error);
+    let judged = judged.max(c.demands_error);
+    // The states agree to 1e-13 or so: what the judge finds of them is no larger.
+    compared.compare("what the judge finds", judged, 0.0, 1e-11);
     let Compared { figures, worst: (worst, tolerance, what), wrong } = compared;
     println!(
-        "case {id}: {figures} figures, worst {worst:.1e} of its tolerance {tolerance:.1e} ({what})"
+        "case {id}: {figures} figures, worst {worst:.1e} of its tolerance {tolerance:.1e} ({what}); judged {judged:.1e}"
     );
     assert!(wrong.is_empty(), "{id}:\n{}", wrong.join("\n"));
 }

@@ -14,6 +14,8 @@
 
 use std::sync::LazyLock;
 
+use super::lane::Lane;
+
 /// Nodes of the rule.
 pub(super) const NODES: usize = 8;
 /// Nodes and both ends.
@@ -33,7 +35,7 @@ pub(super) struct Rule {
     pub(super) weights: [f64; NODES],
     /// `A` and its square.
     pub(super) a: [[f64; NODES]; NODES],
-    pub(super) aa: [[f64; NODES]; NODES],
+    aa: [[f64; NODES]; NODES],
     /// 0, the nodes, 1.
     pub(super) points: [f64; POINTS],
     barycentric: [f64; POINTS],
@@ -86,6 +88,35 @@ impl Rule {
             1.0 / gaps.product::<f64>()
         });
         Self { c, weights, a, aa, points, barycentric }
+    }
+
+    /// `x` and `v` at a node of a step of a length, from those at its start and `ẍ` at all nodes.
+    #[inline(always)]
+    pub(super) fn node<L: Lane>(
+        &self,
+        i: usize,
+        h: L,
+        [x0, v0]: [L; 2],
+        rate: impl Fn(usize) -> L,
+    ) -> [L; 2] {
+        let (mut dx, mut dv) = (rate(0) * self.aa[i][0], rate(0) * self.a[i][0]);
+        for j in 1..NODES {
+            dx += rate(j) * self.aa[i][j];
+            dv += rate(j) * self.a[i][j];
+        }
+        [x0 + h * (v0 * self.c[i] + h * dx), v0 + h * dv]
+    }
+
+    /// The same at the end.
+    #[inline(always)]
+    pub(super) fn end<L: Lane>(&self, h: L, [x0, v0]: [L; 2], rate: impl Fn(usize) -> L) -> [L; 2] {
+        let share = |j: usize| rate(j) * self.weights[j];
+        let (mut dx, mut dv) = (share(0) * (1.0 - self.c[0]), share(0));
+        for j in 1..NODES {
+            dx += share(j) * (1.0 - self.c[j]);
+            dv += share(j);
+        }
+        [x0 + h * (v0 + h * dx), v0 + h * dv]
     }
 
     /// The polynomial through `values` at the points, at `t` in [0, 1].
@@ -158,4 +189,28 @@ impl Rule {
         let node = (self.points[middle], at_point);
         if node.1 <= found.1 { node } else { found }
     }
+}
+
+/// Most Legendre terms of a velocity.
+pub(super) const MOST_TERMS: usize = 9;
+
+/// How many Legendre terms a velocity has over so many radians: what is left out is below 1e-8 of it, its
+/// square below rounding.
+pub(super) fn terms(turn: f64) -> usize {
+    let (mut terms, mut size) = (2, 0.5 * turn);
+    while terms < MOST_TERMS && size > 1e-8 {
+        size *= 0.5 * turn / (2.0 * terms as f64 - 1.0);
+        terms += 1;
+    }
+    terms
+}
+
+/// Legendre's polynomial `P_l(z)`.
+pub(super) fn legendre(l: usize, z: f64) -> f64 {
+    let (mut p, mut before) = (1.0, 0.0);
+    for k in 1..=l {
+        let k = k as f64;
+        (p, before) = (((2.0 * k - 1.0) * z * p - (k - 1.0) * before) / k, p);
+    }
+    p
 }

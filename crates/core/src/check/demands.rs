@@ -44,12 +44,6 @@ impl Totals {
         }
     }
 
-    /// The least margin of those decided.
-    #[cfg(test)]
-    pub(super) fn closest_stop(&self) -> Option<f64> {
-        self.closest_stop
-    }
-
     /// A stop of the slider was decided.
     pub(super) fn decided(&mut self, margin: f64, drift: f64) {
         if self.closest_stop.is_none_or(|least| margin < least) {

@@ -1,8 +1,6 @@
 //! The balance of energy in the frame of the table.
 
 use super::EnergyHistory;
-use super::lane::LANES;
-use super::path::Spent;
 
 /// Energies at knots, and what the intervals that begin there spend, in J.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -37,28 +35,6 @@ impl Books {
             blur: if varies { zeros() } else { Vec::new() },
             kinetic,
             strain,
-        }
-    }
-
-    /// Takes up what eight intervals have spent.
-    pub(super) fn put(&mut self, knots: &[usize; LANES], spent: &Spent) {
-        let lists = [
-            (&mut self.work, &spent.work),
-            (&mut self.size, &spent.size),
-            (&mut self.damping, &spent.damping),
-            (&mut self.friction, &spent.friction),
-            (&mut self.blur, &spent.blur),
-        ];
-        let (first, last) = (knots[0], knots[LANES - 1]);
-        let contiguous = knots.windows(2).all(|pair| pair[1] == pair[0] + 1);
-        for (list, values) in lists.into_iter().filter(|(list, _)| !list.is_empty()) {
-            if contiguous {
-                list[first..=last].copy_from_slice(&values.0);
-                continue;
-            }
-            for (knot, value) in knots.iter().zip(&values.0) {
-                list[*knot] = *value;
-            }
         }
     }
 

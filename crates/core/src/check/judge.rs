@@ -6,7 +6,6 @@ use super::demands::{Comparison, Rounding, Totals};
 use super::energy::Books;
 use super::events::Events;
 use super::ground::Ground;
-use super::knots::Worst;
 use super::law::{Law, StickDemand};
 use super::near::{Dips, dip};
 use super::outputs::Outputs;
@@ -38,19 +37,6 @@ impl Figures {
     pub(super) fn equilibrium(&self, table: f64) -> f64 {
         let all = [self.displacement, self.velocity, self.force, [self.table[0], table]];
         all.map(relative).into_iter().fold(0.0, larger)
-    }
-
-    /// Takes the worst of all lanes.
-    pub(super) fn take(&mut self, worst: &Worst) {
-        for (figure, lanes) in [
-            (&mut self.displacement, &worst.displacement),
-            (&mut self.velocity, &worst.velocity),
-            (&mut self.force, &worst.force),
-        ] {
-            *figure = [0, 1].map(|i| larger(figure[i], lanes[i].largest()));
-        }
-        self.table[0] = larger(self.table[0], worst.table.largest());
-        self.excess = larger(self.excess, worst.excess.largest());
     }
 }
 
@@ -326,7 +312,7 @@ where
     /// Ends a phase of an interface at a knot: its near decisions are known.
     fn close(&mut self, i: usize, mode: Mode, to: usize) {
         let call = match mode {
-            Mode::Stick => self.dips[i].least(i),
+            Mode::Stick => self.dips[i].least(DecisionKind::Stick, i),
             Mode::Slip(direction) => self.slipped(i, direction, to),
         };
         if let Some(call) = call {
@@ -384,7 +370,7 @@ where
     fn near_misses(&self) -> Vec<ClosestCall> {
         let h = self.h;
         let mut calls = Vec::new();
-        for side in [Direction::Positive, Direction::Negative] {
+        for side in Direction::BOTH {
             let Some(wall) = self.law.wall(side) else { continue };
             let gap_m = wall.abs();
             // Where the block came to a halt on its way there.

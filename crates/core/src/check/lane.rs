@@ -14,6 +14,7 @@ pub(super) trait Lane:
     + AddAssign
     + Add<Output = Self>
     + Sub<Output = Self>
+    + Mul<Output = Self>
     + Mul<f64, Output = Self>
     + Sub<f64, Output = Self>
 {

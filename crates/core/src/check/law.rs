@@ -14,6 +14,16 @@ const PASSED: f64 = 1e-10;
 /// A surface is at its end from this part of its travel on: bounces at a stop leave it by little more.
 const AT_END: f64 = 1.0 - 4.0 * f64::EPSILON;
 
+/// Stands for no bound, so that it can be multiplied by 0.
+pub(super) const UNBOUNDED: f64 = 1e200;
+/// No bound either way.
+pub(super) const BOUNDLESS: [f64; 2] = [-UNBOUNDED, UNBOUNDED];
+
+/// Some numbers where a stop is leaned against, others where it is not.
+pub(super) fn either(leans: [bool; 2], those: [f64; 2], others: [f64; 2]) -> [f64; 2] {
+    [0, 1].map(|i| if leans[i] { those[i] } else { others[i] })
+}
+
 /// What friction is asked for and between which forces it holds, in N.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct StickDemand {
@@ -168,7 +178,7 @@ impl Law {
     pub(super) fn sliding_load(&self, direction: Direction) -> f64 {
         let mu = match &self.rate {
             Some(rate) => rate.factor(direction),
-            None => self.kinetic[index(direction)],
+            None => direction.of(self.kinetic),
         };
         -direction.sign() * mu
     }
@@ -195,15 +205,14 @@ impl Law {
     pub(super) fn drops(&self, direction: Direction) -> bool {
         match &self.series {
             Some(series) => series.static_ratio() > 1.0,
-            None => self.kinetic_at_rest(direction) < self.fixed[index(direction)],
+            None => self.kinetic_at_rest(direction) < direction.of(self.fixed),
         }
     }
 
     /// `|T + μ_k N sgn ṡ|` over `N` for a slip whose velocity has the wrong sign. Where no kinetic
     /// friction tells the directions apart the static one stands for it: eq. (4) was not asked at ṡ = 0.
     pub(super) fn wrong_way(&self) -> f64 {
-        let [positive, negative] =
-            [Direction::Positive, Direction::Negative].map(|way| self.kinetic_at_rest(way));
+        let [positive, negative] = Direction::BOTH.map(|way| self.kinetic_at_rest(way));
         let excess = if self.series.is_some() { 0.0 } else { positive + negative };
         if excess > 0.0 { excess } else { self.most() }
     }
@@ -236,14 +245,14 @@ impl Law {
     /// By how much `s` lies beyond a rigid stop, in m.
     pub(super) fn beyond_walls(&self, s: f64) -> f64 {
         let beyond = |side: Direction| Some(side.sign() * (s - self.wall(side)?));
-        let sides = [Direction::Positive, Direction::Negative].into_iter().filter_map(beyond);
+        let sides = Direction::BOTH.into_iter().filter_map(beyond);
         sides.fold(0.0, f64::max)
     }
 
     /// Against which stops a block at `s` rests: within the rounding of `s`.
     pub(super) fn leans(&self, s: f64) -> [bool; 2] {
         let off = |side: Direction, wall: f64| side.sign() * (wall - s);
-        [Direction::Positive, Direction::Negative].map(|side| {
+        Direction::BOTH.map(|side| {
             self.wall(side).is_some_and(|wall| off(side, wall) <= 8.0 * f64::EPSILON * wall.abs())
         })
     }
@@ -287,7 +296,7 @@ impl Law {
             return Contact::Free;
         };
         let gap_m = |side| self.stop.as_ref()?.gap_towards(side);
-        for side in [Direction::Positive, Direction::Negative] {
+        for side in Direction::BOTH {
             let Some(delta) = gap_m(side).map(|gap_m| side.sign() * s - gap_m) else { continue };
             let push = side.sign() * self.push(Contact::Pressed(side)).force(s, w);
             if delta > 0.0 {
@@ -319,7 +328,7 @@ impl Law {
         };
         let beyond = |force: f64| excess(force - slack_n - k * slack_m);
         match claimed {
-            Contact::Free => [Direction::Positive, Direction::Negative]
+            Contact::Free => Direction::BOTH
                 .into_iter()
                 .filter_map(of)
                 .filter(|(delta, _)| !(*delta <= slack_m))
@@ -339,7 +348,7 @@ impl Law {
 
     /// Largest `μ_s N`, or the weight where that is 0: the scale of [`super::Certificate::friction_excess`].
     pub(super) fn scale(&self, normal: f64, weight: f64) -> f64 {
-        let bound = self.fixed[0].max(self.fixed[1]) * normal;
+        let bound = self.most() * normal;
         if bound > 0.0 { bound } else { weight }
     }
 
@@ -442,13 +451,5 @@ impl Law {
                 (threshold - held) / threshold.abs().max(surface.friction)
             })
             .reduce(f64::min)
-    }
-}
-
-/// Place of a direction in pairs.
-pub(super) fn index(direction: Direction) -> usize {
-    match direction {
-        Direction::Positive => 0,
-        Direction::Negative => 1,
     }
 }

@@ -1,16 +1,32 @@
 //! What is judged in one horizontal direction: intervals do not depend on each other and go side by side.
 
+mod courses;
+mod decisions;
+mod equations;
+mod group;
+mod intervals;
+mod knots;
+mod maps;
+mod margins;
+mod order;
+mod path;
+mod peaks;
+mod stored;
+mod sweep;
+mod watch;
+mod work;
+
 use fearless_simd::{Level, dispatch};
 
-use super::ClosestCall;
+use self::knots::{Acting, Knots, LaneJudge, Worst, lists_of};
+use self::watch::Watched;
 use super::collocation::Rule;
 use super::demands::{self, Comparison, Own, Rounding};
 use super::energy::Books;
-use super::intervals::Watched;
 use super::judge::{Directions, Given, Judge, Run, Sizes};
-use super::knots::{Acting, Knots, LaneJudge, Worst, lists_of};
 use super::outputs::{BLOCK, VELOCITY};
 use super::structure::{Phase, Structure, excess, larger};
+use super::{ClosestCall, DecisionKind};
 use crate::error::Stopped;
 use crate::progress::{Pulse, UNWATCHED};
 use crate::response::Mode;
@@ -18,23 +34,23 @@ use crate::slider::Direction;
 
 /// What a judgement in one direction needs besides.
 pub(super) struct Line<'a> {
-    pub(super) structure: &'a Structure,
+    structure: &'a Structure,
     /// Largest sizes of the outputs.
-    pub(super) attained: Vec<f64>,
-    pub(super) rates: [f64; 3],
-    pub(super) knots: Knots,
-    pub(super) watched: Watched,
+    attained: Vec<f64>,
+    rates: [f64; 3],
+    knots: Knots,
+    watched: Watched,
     /// Knots at which the phases under way have begun, by interface.
-    pub(super) since: Vec<usize>,
+    since: Vec<usize>,
     /// A margin that the closest call has at most.
-    pub(super) floor: f64,
+    floor: f64,
     /// Step of most intervals of the motion.
-    pub(super) even_s: f64,
-    pub(super) longest_s: f64,
+    even_s: f64,
+    longest_s: f64,
     /// Intervals that were swept.
     #[cfg(test)]
-    pub(super) swept: usize,
-    pub(super) level: Level,
+    swept: usize,
+    level: Level,
 }
 
 impl<'a> Judge<'a, Line<'a>> {
@@ -71,7 +87,7 @@ impl<'a> Judge<'a, Line<'a>> {
     }
 
     /// What the lanes need.
-    pub(super) fn bench(&self) -> LaneJudge<'a> {
+    fn bench(&self) -> LaneJudge<'a> {
         LaneJudge {
             structure: self.axes.structure,
             rule: Rule::get(),
@@ -85,7 +101,7 @@ impl<'a> Judge<'a, Line<'a>> {
     }
 
     /// What the rounding of times makes of a position at this speed, and of the force of the stop.
-    pub(super) fn slack(&self, w: f64) -> [f64; 2] {
+    fn slack(&self, w: f64) -> [f64; 2] {
         let slack_m = self.instant_s * w.abs() + 8.0 * f64::EPSILON * self.figures.displacement[1];
         [slack_m, self.axes.structure.stop_damper() * self.jolt]
     }
@@ -136,7 +152,7 @@ impl<'a> Directions for Judge<'a, Line<'a>> {
         // At the start and at the end both sides of a jump last.
         let passed = |k: &usize| h.time_s[k + 1] == h.time_s[*k] && h.time_s[k - 1] == h.time_s[*k];
         let passed: Vec<usize> = (1..h.len().saturating_sub(1)).filter(passed).collect();
-        let mut worst = Worst::NONE;
+        let mut worst = Worst::default();
         let degrees = [self.axes.structure.degrees(), h.storeys];
         let mut knots = Knots::new(h.len(), self.outputs.len(), degrees);
         let mut pulse = core::mem::replace(&mut self.pulse, Pulse::new(UNWATCHED));
@@ -166,7 +182,7 @@ impl<'a> Directions for Judge<'a, Line<'a>> {
             acceleration: block.max(table),
             frequency: self.axes.structure.frame_frequency(),
         });
-        self.figures.take(&worst);
+        worst.enter(&mut self.figures);
         if self.model.stop().is_some() {
             for k in 0..h.len() {
                 let at = (h.sliding_displacement_m[k], h.sliding_velocity_m_per_s[k]);
@@ -268,7 +284,7 @@ impl<'a> Directions for Judge<'a, Line<'a>> {
             let fastest = knots.fold(0.0, |most, k| self.speed_at(k, i).abs().max(most));
             self.dips[i].see(fastest);
         }
-        self.dips[i].least_of_peak(i)
+        self.dips[i].least(DecisionKind::Slip, i)
     }
 
     fn begins(&mut self, i: usize, k: usize) {

@@ -97,21 +97,10 @@ impl Dips {
         self.fed_s = to_s;
     }
 
-    /// The least minimum of an interface's margin in stick.
-    pub(super) fn least(&self, interface: usize) -> Option<ClosestCall> {
-        let (margin, time_s) = self.least?;
-        Some(ClosestCall { margin, time_s, kind: DecisionKind::Stick, interface })
-    }
-
-    /// The least minimum of an interface's speed in slip over its largest value.
-    pub(super) fn least_of_peak(&self, interface: usize) -> Option<ClosestCall> {
+    /// The least minimum of an interface's margin in stick, or of its speed in slip over its largest value.
+    pub(super) fn least(&self, kind: DecisionKind, interface: usize) -> Option<ClosestCall> {
         let (least, time_s) = self.least?;
-        let margin = least / self.peak;
-        (self.peak > 0.0).then_some(ClosestCall {
-            margin,
-            time_s,
-            kind: DecisionKind::Slip,
-            interface,
-        })
+        let scale = if kind == DecisionKind::Stick { 1.0 } else { self.peak };
+        (scale > 0.0).then(|| ClosestCall { margin: least / scale, time_s, kind, interface })
     }
 }

@@ -2,7 +2,6 @@
 
 use super::collocation::{POINTS, Rule};
 use super::lane::Lane;
-use super::structure::larger;
 use crate::model::{Contents, Model};
 
 /// Places of the tracked outputs; from [`STOREYS`] on displacements of all storeys, then drifts, then total
@@ -162,19 +161,45 @@ fn arm(model: &Model) -> Option<Arm> {
     })
 }
 
-/// Raises a peak to the largest size of a polynomial through the values at the points of a step.
-pub(super) fn raise(rule: &Rule, peak: &mut f64, values: &[f64; POINTS]) {
-    let size = |value: f64| value.abs();
-    let at = |best: usize, i: usize| if size(values[i]) > size(values[best]) { i } else { best };
-    let best = (1..POINTS).fold(0, at);
-    let (least, most) =
-        values.iter().fold((values[0], values[0]), |(least, most), &v| (v.min(least), v.max(most)));
-    *peak = larger(*peak, values[best]);
-    // Between two points the polynomial rises above both by less than a tenth of its range.
-    if size(values[best]) + 0.1 * (most - least) <= *peak * (1.0 + 1e-12) {
-        return;
+/// Raises a peak to the largest value in a step, known at its points; `false` where a coarse step may raise
+/// it.
+pub(super) fn raise(
+    rule: &Rule,
+    peak: &mut f64,
+    values: &[f64; POINTS],
+    coarse: bool,
+    of: impl Fn(f64) -> f64,
+) -> bool {
+    let best = (1..POINTS).fold(0, |best, i| if values[i] > values[best] { i } else { best });
+    if values.iter().any(|value| value.is_nan()) {
+        *peak = f64::INFINITY;
+        return true;
     }
+    let least = values.iter().fold(values[best], |least, value| value.min(least));
+    // Between two points the polynomial rises above both by less than a tenth of its range.
+    let may_reach = values[best] + 0.1 * (values[best] - least);
+    if may_reach <= *peak + 1e-12 * peak.abs() {
+        *peak = peak.max(values[best]);
+        return true;
+    }
+    if coarse {
+        return false;
+    }
+    let (_, lowest) = rule.least_of((best, -values[best]), |t| -of(t));
+    *peak = peak.max(values[best]).max(-lowest);
+    true
+}
+
+/// Raises a peak to the largest size of a polynomial through the values at the points of a step, likewise.
+pub(super) fn raise_size(
+    rule: &Rule,
+    peak: &mut f64,
+    values: &[f64; POINTS],
+    coarse: bool,
+) -> bool {
+    let is_larger = |i: usize, best: usize| values[i].abs() > values[best].abs();
+    let best = (1..POINTS).fold(0, |best, i| if is_larger(i, best) { i } else { best });
     let sign = values[best].signum();
-    let (_, lowest) = rule.least(values, best, |_, value| -sign * value);
-    *peak = larger(*peak, lowest);
+    let of = |t: f64| sign * rule.interpolate(values, t);
+    raise(rule, peak, &values.map(|value| sign * value), coarse, of)
 }

@@ -12,8 +12,6 @@ mod judge;
 mod peaks;
 mod step;
 mod straight;
-#[cfg(test)]
-mod tests;
 
 use super::ground::Ground;
 use super::judge::Given;

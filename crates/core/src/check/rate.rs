@@ -34,7 +34,7 @@ impl RateFriction {
     /// The law of a model that has one.
     pub(super) fn new(model: &Model) -> Option<Self> {
         let law = model.slider().rate()?;
-        let factors = [Direction::Positive, Direction::Negative].map(|way| law.factor(way));
+        let factors = Direction::BOTH.map(|way| law.factor(way));
         Some(match law.curve() {
             RateCurve::Pieces { speeds_m_per_s: v, coefficients: mu } => {
                 let pair = v.windows(2).zip(mu.windows(2));
@@ -151,7 +151,7 @@ impl RateFriction {
 
     /// Factor on the curve in a direction.
     pub(super) fn factor(&self, direction: Direction) -> f64 {
-        self.factors[super::law::index(direction)]
+        direction.of(self.factors)
     }
 
     /// What it adds to the rates of a slip, in 1/s: for a normal force over the block's mass, and
@@ -186,7 +186,7 @@ mod tests {
             for i in 0..200 {
                 let speed = 0.0017 * f64::from(i);
                 let mu = own.coefficient(speed);
-                for way in [Direction::Positive, Direction::Negative] {
+                for way in Direction::BOTH {
                     let (found, expected) = (own.factor(way) * mu, law.at(speed, way));
                     assert!((found - expected).abs() < 1e-16, "{speed}: {found} {expected}");
                 }

@@ -3,7 +3,10 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot be set up has failed")]
 
+#[path = "../common/mod.rs"]
+mod common;
 mod plane;
 mod systems;
 mod tampered;
+mod tampered_in_plane;
 mod true_histories;

@@ -4,49 +4,16 @@ use super::super::collocation::POINTS;
 use super::super::ground::nearest;
 use super::super::structure::larger;
 use super::frame::{Pair, between, dot, norm, times, unit};
-use super::interval::FINE;
-use super::judge::PlaneJudge;
-use super::peaks::Acting;
-use super::step::{State, Step, Stretch, sine};
+use super::judge::{Minima, PlaneJudge, REST, Turn};
+use super::step::{FINE, State, Step, Stretch, sine};
 use crate::response::Mode;
 
-/// A block that slows down to this part of its peak speed in a slip has come to rest if it holds.
-pub(super) const REST: f64 = 1e-14;
 /// Sine of the angle between velocity and push below which a motion is straight, and from which it is not.
 const STRAIGHT: [f64; 2] = [1e-6, 1e-5];
 
 /// Whether a motion against the push may be straight.
 pub(super) fn is_straight(w: Pair, push: Pair) -> bool {
     dot(w, push) < 0.0 && sine(w, push) < STRAIGHT[1]
-}
-
-/// Where a side of a knot lies in its interval.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Place {
-    Start,
-    End,
-    /// No interval begins or ends at the knot.
-    Alone,
-}
-
-/// What an event is in the plane.
-pub(super) struct Turn {
-    /// Direction of the first velocity, as far as it is known; 0 in stick.
-    pub(super) direction: Option<Pair>,
-    /// What it is not known to, and the force that tells it.
-    pub(super) unsure: f64,
-    pub(super) force_n: f64,
-    /// `s` along y.
-    pub(super) y_m: f64,
-}
-
-/// Minima of the speed of a slip at which the block would have held, had it come to rest.
-#[derive(Default)]
-pub(super) struct Minima {
-    /// When the speed was last at a turn, and whether the block would hold there.
-    turn: (f64, bool),
-    /// The least of them, and when.
-    pub(super) least: Option<(f64, f64)>,
 }
 
 impl<'a> PlaneJudge<'a> {
@@ -72,7 +39,7 @@ impl<'a> PlaneJudge<'a> {
 
     /// Whether a block at rest is held though friction would not have stopped it: `f < |p| ≤ μ_s N/M1`.
     pub(super) fn holds_only(&self, state: &State, loads: &super::frame::Loads) -> bool {
-        let (frame, push) = (self.frame(), norm(self.forces(state, loads).0.push));
+        let (frame, push) = (self.frame(), norm(self.push(state, loads)));
         frame.slowing(loads, 0.0) < push && push <= frame.holding(loads)
     }
 
@@ -87,7 +54,7 @@ impl<'a> PlaneJudge<'a> {
             let best = nearest(off).iter().position(|is| *is);
             return self.comes_to_rest(k, &all[best.unwrap_or(0)]);
         }
-        let push = self.forces(&state, &all[3]).0.push;
+        let push = self.push(&state, &all[3]);
         let slowing = self.frame().slowing(&all[3], 0.0);
         let clear = norm(push) > 1e-6 * (self.largest.1 + slowing);
         turn.direction = self.frame().body.departure(push, slowing).filter(|_| clear);
@@ -99,8 +66,8 @@ impl<'a> PlaneJudge<'a> {
     /// done in all directions between that of sliding and that of the push.
     fn comes_to_rest(&mut self, k: usize, loads: &super::frame::Loads) {
         let state = self.state(k);
-        let (forces, floors) = self.forces(&state, loads);
-        let (frame, tracked, push) = (self.frame(), self.tracked(), forces.push);
+        let acting = self.acting(&state, loads);
+        let (frame, tracked, push) = (self.frame(), self.tracked(), acting.forces.push);
         let (p, f) = (norm(push), frame.slowing(loads, 0.0));
         let late = 2.0 * self.instant_s * (p + f);
         if p > f * (1.0 + 1e-9) && self.axes.arrived > late.max(2.0 * REST * self.dips[0].peak()) {
@@ -109,8 +76,6 @@ impl<'a> PlaneJudge<'a> {
         }
         let Some(from) = self.last_heading(k) else { return };
         let Some(to) = self.last_direction(from, push, f) else { return };
-        let acting =
-            Acting { state: &state, loads: *loads, forces, floors: &floors, direction: Some(from) };
         if !frame.body.is_one() {
             let rate = frame.body.moved([push[0] - f * from[0], push[1] - f * from[1]]);
             if sine(from, rate) >= STRAIGHT[0] {
@@ -157,11 +122,15 @@ impl<'a> PlaneJudge<'a> {
         if headings[0].is_some() && headings[0] == headings[1] {
             return;
         }
+        // What friction does on the way to a stop is looked at where that is reached.
+        let mut abreast =
+            (k + 2..self.h.len()).take_while(|&j| self.h.time_s[j] == self.h.time_s[k]);
+        if headings == [None; 2] && abreast.any(|j| !slips(j)) {
+            return;
+        }
         let tracked = self.tracked();
         let loads = self.instant(self.h.time_s[k])[3];
-        let (forces, floors) = self.forces(&from, &loads);
-        let acting =
-            Acting { state: &from, loads, forces, floors: &floors, direction: headings[0] };
+        let acting = self.acting(&from, &loads);
         // Which way a straight pass through rest turns is rounding.
         if let [Some(from), Some(to)] = headings
             && !is_straight(from, to)
@@ -179,7 +148,7 @@ impl<'a> PlaneJudge<'a> {
             let mut state = State::default();
             step.at(judge.axes.stepper.rule, t, &mut state);
             let loads = between(&loads, t);
-            judge.asked(judge.forces(&state, &loads).0.push, &loads).0
+            judge.asked(judge.push(&state, &loads), &loads).0
         });
     }
 
@@ -188,7 +157,7 @@ impl<'a> PlaneJudge<'a> {
         let mut state = State::default();
         step.at_point(point, &mut state);
         let loads = step.stretch.at(self.axes.stepper.rule.points[point] * step.stretch.step_s);
-        self.forces(&state, &loads).0.push
+        self.push(&state, &loads)
     }
 
     /// `u·ẇ` at a point of a step of a slip.
@@ -218,7 +187,7 @@ impl<'a> PlaneJudge<'a> {
             let state = self.inside(step, part);
             let loads = between(&step.stretch.loads, part);
             let (w, r) = (state.speed(), norm(state.speed()));
-            let push = self.forces(&state, &loads).0.push;
+            let push = self.push(&state, &loads);
             let body = &self.frame().body;
             // w·A⁻¹p − f w·A⁻¹u
             let slowing = self.frame().slowing(&loads, r) * dot(w, body.moved(w)) / r;

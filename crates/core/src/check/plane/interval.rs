@@ -2,11 +2,10 @@
 
 use super::super::collocation::{MAX_TURN, POINTS};
 use super::super::structure::{excess, larger};
-use super::decisions::{Place, is_straight};
+use super::decisions::is_straight;
 use super::frame::{Loads, Pair, dot, norm, table, unit};
-use super::judge::PlaneJudge;
-use super::peaks::Acting;
-use super::step::{State, Step, Stretch, time_to_rest};
+use super::judge::{Place, PlaneJudge};
+use super::step::{FINE, State, Step, Stretch, time_to_rest};
 use crate::error::Stopped;
 use crate::response::Mode;
 
@@ -20,8 +19,6 @@ const SHORTEST_STRAIGHT_M: f64 = 2e-18;
 const DEFECT: f64 = 2e-15;
 /// Largest last Legendre coefficient over the largest acceleration: beyond it they say nothing.
 const TAIL: f64 = 1e-4;
-/// The same where a peak is told.
-pub(super) const FINE: f64 = 1e-10;
 /// Most halvings to tell a peak.
 const DEEPEST: u32 = 12;
 /// Most steps of an interval.
@@ -128,7 +125,7 @@ impl<'a> PlaneJudge<'a> {
         }
         let Some(rested_s) = way.rested_s else { return };
         let loads = self.instant(self.h.time_s[k + 1])[0];
-        let push = norm(self.forces(&way.state, &loads).0.push);
+        let push = norm(self.push(&way.state, &loads));
         let slowing = self.frame().slowing(&loads, 0.0);
         let faster = self.frame().body.most_compliant();
         let late_s = excess(rested_s.abs() - instant_s);
@@ -247,14 +244,14 @@ impl<'a> PlaneJudge<'a> {
     /// How long a first step from here may be: the motion bends within `r/(f + |p|)`.
     fn outlook(&self, way: &Way, loads: &Loads) -> f64 {
         let r = norm(way.state.speed());
-        let p = norm(self.forces(&way.state, loads).0.push);
+        let p = norm(self.push(&way.state, loads));
         let rate = self.frame().body.most_compliant() * (self.frame().slowing(loads, r) + p);
         if r > 0.0 { 2.0 * r / rate } else { f64::INFINITY }
     }
 
     /// How far a slip goes from here without coming to rest.
     fn reach(&self, way: &Way, loads: &Loads, (t, left_s): (f64, f64)) -> Reach {
-        let push = self.forces(&way.state, loads).0.push;
+        let push = self.push(&way.state, loads);
         let (w, p) = (way.state.speed(), norm(push));
         let r = norm(w);
         let f = self.frame().slowing(loads, r);
@@ -305,11 +302,8 @@ impl<'a> PlaneJudge<'a> {
     /// turned either way.
     fn turn_about(&mut self, way: &mut Way, loads: &Loads, at_s: f64) {
         let tracked = self.tracked();
-        let direction = unit(way.state.speed());
         way.state.lose_speed(self.frame());
-        let (forces, floors) = self.forces(&way.state, loads);
-        let acting =
-            Acting { state: &way.state, loads: *loads, forces, floors: &floors, direction };
+        let acting = self.acting(&way.state, loads);
         self.axes.peaks.turn(&tracked, &acting, None, false);
         let holds = self.holds_only(&way.state, loads);
         self.feed_speed(at_s, 0.0, |_| holds);
@@ -373,9 +367,7 @@ impl<'a> PlaneJudge<'a> {
             return;
         }
         if self.is_straight_near_rest(step, quickest) {
-            let (loads, direction) = (step.stretch.at(step_s), unit(way.state.speed()));
-            let (forces, floors) = self.forces(&way.state, &loads);
-            let acting = Acting { state: &way.state, loads, forces, floors: &floors, direction };
+            let acting = self.acting(&way.state, &step.stretch.at(step_s));
             self.axes.peaks.turn(&self.tracked(), &acting, None, false);
         } else {
             self.look(step, 0);
@@ -391,7 +383,7 @@ impl<'a> PlaneJudge<'a> {
         if self.axes.near_rest.is_none() {
             let mut state = State::default();
             step.at_point(0, &mut state);
-            let push = self.forces(&state, &step.stretch.loads[0]).0.push;
+            let push = self.push(&state, &step.stretch.loads[0]);
             let slowing = self.frame().slowing(&step.stretch.loads[0], norm(state.speed()));
             self.axes.near_rest = Some(self.is_straight(state.speed(), push, slowing));
         }

@@ -8,7 +8,6 @@ use super::super::judge::{Directions, Given, Judge, Run, Sizes};
 use super::super::law::StickDemand;
 use super::super::structure::{excess, larger};
 use super::super::{ClosestCall, DecisionKind};
-use super::decisions::{Minima, Place, REST, Turn};
 use super::frame::{Forces, Loads, Pair, PlaneFrame, norm, unit};
 use super::lists;
 use super::peaks::{Acting, Peaks, Tracked};
@@ -16,6 +15,38 @@ use super::step::{State, Stepper};
 use crate::error::Stopped;
 use crate::response::{HistoryAlongY, InPlane, Mode};
 use crate::slider::Direction;
+
+/// A block that slows down to this part of its peak speed in a slip has come to rest if it holds.
+pub(super) const REST: f64 = 1e-14;
+
+/// Where a side of a knot lies in its interval.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Place {
+    Start,
+    End,
+    /// No interval begins or ends at the knot.
+    Alone,
+}
+
+/// What an event is in the plane.
+pub(super) struct Turn {
+    /// Direction of the first velocity, as far as it is known; 0 in stick.
+    pub(super) direction: Option<Pair>,
+    /// What it is not known to, and the force that tells it.
+    pub(super) unsure: f64,
+    pub(super) force_n: f64,
+    /// `s` along y.
+    pub(super) y_m: f64,
+}
+
+/// Minima of the speed of a slip at which the block would have held, had it come to rest.
+#[derive(Default)]
+pub(super) struct Minima {
+    /// When the speed was last at a turn, and whether the block would hold there.
+    pub(super) turn: (f64, bool),
+    /// The least of them, and when.
+    pub(super) least: Option<(f64, f64)>,
+}
 
 /// What a judgement in a plane needs besides.
 pub(super) struct Plane<'a> {
@@ -130,11 +161,14 @@ impl<'a> PlaneJudge<'a> {
         table(&loads[0], self.frame().fixed) + table(&loads[1], 0.0)
     }
 
-    /// Forces in the state stored at a knot.
-    pub(super) fn forces(&self, state: &State, loads: &Loads) -> (Forces, Vec<f64>) {
-        let mut floors = vec![0.0; self.frame().masses_kg.len()];
-        let forces = self.frame().forces(&state.x, &state.v, loads, &mut floors);
-        (forces, floors)
+    /// All that acts in a state.
+    pub(super) fn acting<'s>(&self, state: &'s State, loads: &Loads) -> Acting<'s> {
+        Acting::new(self.frame(), state, loads)
+    }
+
+    /// The push on the block in a state.
+    pub(super) fn push(&self, state: &State, loads: &Loads) -> Pair {
+        self.acting(state, loads).forces.push
     }
 
     /// Compares what is stored at a knot with the loads on one side of it: the accelerations of the table, the
@@ -143,7 +177,7 @@ impl<'a> PlaneJudge<'a> {
     pub(super) fn side(&self, k: usize, loads: &Loads, place: Place) -> Side {
         let (h, y, frame) = (self.h, self.axes.along_y, self.frame());
         let state = self.state(k);
-        let (forces, floors) = self.forces(&state, loads);
+        let Acting { forces, floors, .. } = self.acting(&state, loads);
         let at = |x: &[f64], y: &[f64], i: usize| [x[i], y[i]];
         let own = at(&h.table_acceleration_m_per_s2, &y.table_acceleration_m_per_s2, k);
         let block = at(&h.block_acceleration_m_per_s2, &y.block_acceleration_m_per_s2, k);
@@ -273,7 +307,7 @@ impl Directions for PlaneJudge<'_> {
             let (all, off) = self.loads_of(k);
             let state = self.state(k);
             let found = self.weigh((k, 0), nearest(off), 1, |load, _| {
-                let push = self.forces(&state, &all[load]).0.push;
+                let push = self.push(&state, &all[load]);
                 self.asked(push, &all[load])
             });
             self.decided((k, 0), found);
@@ -295,15 +329,14 @@ impl Directions for PlaneJudge<'_> {
         if k == 0 || k + 1 == self.h.len() {
             let state = self.state(k);
             let loads = all[if k == 0 { 1 } else { 2 }];
-            let (forces, floors) = self.forces(&state, &loads);
+            let acting = self.acting(&state, &loads);
             let slips = self.mode(k) != Mode::Stick;
             let departs = || {
                 let frame = self.frame();
-                frame.body.departure(forces.push, frame.slowing(&loads, 0.0))
+                frame.body.departure(acting.forces.push, frame.slowing(&loads, 0.0))
             };
             let direction = unit(state.speed()).or_else(departs).filter(|_| slips);
-            let acting = Acting { state: &state, loads, forces, floors: &floors, direction };
-            self.axes.peaks.see(&self.tracked(), &acting);
+            self.axes.peaks.see(&self.tracked(), &acting, direction);
         }
     }
 

@@ -3,7 +3,9 @@
 //! In a step whose last Legendre coefficients are rounding all outputs are polynomials as good as the motion.
 
 use super::super::collocation::{POINTS, Rule};
-use super::super::outputs::{BLOCK, FRICTION, OVERTURNING, Outputs, SLIDER, STOREYS};
+use super::super::outputs::{
+    BLOCK, FRICTION, OVERTURNING, Outputs, SLIDER, STOREYS, raise, raise_size,
+};
 use super::super::structure::larger;
 use super::body::PointOfModes;
 use super::frame::{Forces, Loads, Pair, PlaneFrame, cross, dot, norm, table, times, unit};
@@ -22,18 +24,22 @@ fn sizes(vector: Pair) -> [f64; 3] {
 /// What moves and acts at an instant.
 pub(super) struct Acting<'a> {
     pub(super) state: &'a State,
-    pub(super) loads: Loads,
+    loads: Loads,
     pub(super) forces: Forces,
-    pub(super) floors: &'a [f64],
-    /// Direction of the friction of a slip; `None` in stick.
-    pub(super) direction: Option<Pair>,
+    pub(super) floors: Vec<f64>,
 }
 
-impl Acting<'_> {
-    /// `ẇ + a`, `T` and `T − K1 s − N s/R − C1 w`.
-    fn on_block(&self, frame: &PlaneFrame<'_>) -> [Pair; 3] {
+impl<'a> Acting<'a> {
+    pub(super) fn new(frame: &PlaneFrame<'_>, state: &'a State, loads: &Loads) -> Self {
+        let mut floors = vec![0.0; frame.masses_kg.len()];
+        let forces = frame.forces(&state.x, &state.v, loads, &mut floors);
+        Self { state, loads: *loads, forces, floors }
+    }
+
+    /// `ẇ + a`, `T` and `T − K1 s − N s/R − C1 w`, with the direction of a slip.
+    fn on_block(&self, frame: &PlaneFrame<'_>, direction: Option<Pair>) -> [Pair; 3] {
         let (a, Forces { push, spring, damper, .. }) = (table(&self.loads), self.forces);
-        let (block, friction) = match self.direction {
+        let (block, friction) = match direction {
             None => (a, times(push, -frame.block_kg)),
             Some(u) => {
                 let slowed = times(u, frame.slowing(&self.loads, norm(self.state.speed())));
@@ -60,11 +66,12 @@ impl Tracked<'_> {
         self.outputs.len() + 1
     }
 
-    fn vectors(&self, acting: &Acting<'_>, out: &mut Vec<Pair>) {
+    /// In a slip in a direction, or in stick.
+    fn vectors(&self, acting: &Acting<'_>, direction: Option<Pair>, out: &mut Vec<Pair>) {
         let (frame, State { x, v }) = (self.frame, acting.state);
         out.clear();
         out.resize(self.len(), [0.0; 2]);
-        let [block, slider, friction] = acting.on_block(frame);
+        let [block, slider, friction] = acting.on_block(frame, direction);
         let of_part = |j: usize| -acting.floors[j] / frame.masses_kg[j];
         let by_modes = frame.points.as_ref().map(|points| {
             let of = |point: &PointOfModes| {
@@ -92,11 +99,9 @@ impl Tracked<'_> {
         let mut state = State::default();
         step.at_point(point, &mut state);
         let loads = step.stretch.at(rule.points[point] * step.stretch.step_s);
-        let mut floors = vec![0.0; self.frame.masses_kg.len()];
-        let forces = self.frame.forces(&state.x, &state.v, &loads, &mut floors);
-        let direction = step.slips.then(|| step.heading(self.frame, point, forces.push));
-        let acting = Acting { state: &state, loads, forces, floors: &floors, direction };
-        self.vectors(&acting, out);
+        let acting = Acting::new(self.frame, &state, &loads);
+        let heading = || step.heading(self.frame, point, acting.forces.push);
+        self.vectors(&acting, step.slips.then(heading), out);
     }
 }
 
@@ -116,10 +121,15 @@ impl Peaks {
         Self { largest: zeros(), possible: zeros(), sides_m: [f64::NEG_INFINITY; 4] }
     }
 
-    /// Raises the peaks by what is seen at an instant.
-    pub(super) fn see(&mut self, tracked: &Tracked<'_>, acting: &Acting<'_>) {
+    /// Raises the peaks by what is seen at an instant, in a slip in a direction or in stick.
+    pub(super) fn see(
+        &mut self,
+        tracked: &Tracked<'_>,
+        acting: &Acting<'_>,
+        direction: Option<Pair>,
+    ) {
         let mut vectors = Vec::new();
-        tracked.vectors(acting, &mut vectors);
+        tracked.vectors(acting, direction, &mut vectors);
         for (g, vector) in vectors.iter().enumerate() {
             for (view, size) in sizes(*vector).into_iter().enumerate() {
                 let peak = &mut self.largest[view][g];
@@ -161,7 +171,7 @@ impl Peaks {
         let mut vectors = Vec::new();
         let to = if certain { &mut self.largest } else { &mut self.possible };
         for u in turns.chain(arc.into_iter().flatten()) {
-            tracked.vectors(&Acting { direction: Some(u), ..*acting }, &mut vectors);
+            tracked.vectors(acting, Some(u), &mut vectors);
             for g in BY_DIRECTION {
                 for (view, size) in sizes(vectors[g]).into_iter().enumerate() {
                     to[view][g] = larger(to[view][g], size);
@@ -186,8 +196,7 @@ impl Peaks {
         });
         let at = |part: f64, out: &mut Vec<Pair>| {
             let angle = first + part * turn;
-            let direction = Some([libm::cos(angle), libm::sin(angle)]);
-            tracked.vectors(&Acting { direction, ..*acting }, out);
+            tracked.vectors(acting, Some([libm::cos(angle), libm::sin(angle)]), out);
         };
         let mut all = vec![Vec::new(); LOOKS + 1];
         for (i, vectors) in all.iter_mut().enumerate() {
@@ -235,12 +244,11 @@ impl Peaks {
                 [0, 1].map(|axis| core::array::from_fn(|i| at[i][g][axis]));
             let part = |axis: usize, t: f64| rule.interpolate(&parts[axis], t);
             let norms: [f64; POINTS] = core::array::from_fn(|i| norm(at[i][g]));
-            let [x, y] = parts.map(|values| values.map(f64::abs));
             let [whole, along_x, along_y] = &mut self.largest;
             let tells =
                 raise(rule, &mut whole[g], &norms, coarse, |t| norm([part(0, t), part(1, t)]))
-                    && raise(rule, &mut along_x[g], &x, coarse, |t| part(0, t).abs())
-                    && raise(rule, &mut along_y[g], &y, coarse, |t| part(1, t).abs());
+                    && raise_size(rule, &mut along_x[g], &parts[0], coarse)
+                    && raise_size(rule, &mut along_y[g], &parts[1], coarse);
             if !tells {
                 return false;
             }
@@ -254,33 +262,4 @@ impl Peaks {
         }
         true
     }
-}
-
-/// Raises a peak to the largest value in a step, known at its points; `false` where a coarse step may raise
-/// it.
-fn raise(
-    rule: &Rule,
-    peak: &mut f64,
-    values: &[f64; POINTS],
-    coarse: bool,
-    of: impl Fn(f64) -> f64,
-) -> bool {
-    let best = (1..POINTS).fold(0, |best, i| if values[i] > values[best] { i } else { best });
-    if values.iter().any(|value| value.is_nan()) {
-        *peak = f64::INFINITY;
-        return true;
-    }
-    let least = values.iter().fold(values[best], |least, value| value.min(least));
-    // Between two points the polynomial rises above both by less than a tenth of its range.
-    let may_reach = values[best] + 0.1 * (values[best] - least);
-    if may_reach <= *peak + 1e-12 * peak.abs() {
-        *peak = peak.max(values[best]);
-        return true;
-    }
-    if coarse {
-        return false;
-    }
-    let (_, lowest) = rule.least_of((best, -values[best]), |t| -of(t));
-    *peak = peak.max(values[best]).max(-lowest);
-    true
 }

@@ -12,14 +12,16 @@
 //! that ρ, the defect at the end of a step like `ρ^−16`: less than `h |F| (c_6/|F|)²`; the more
 //! so where friction is stiff.
 
-use super::super::collocation::{NODES, POINTS, Rule};
-use super::super::sweep::legendre;
+use super::super::collocation::{NODES, POINTS, Rule, legendre};
 use super::frame::{
     Forces, Loads, Pair, PlaneFrame, between, cross, dot, norm, table, times, unit,
 };
 
 /// A velocity below this part of the largest in a step has no direction.
 const ROUNDING: f64 = 1e-9;
+/// Largest last Legendre coefficient over the largest acceleration with which the polynomials are as good as the
+/// motion.
+pub(super) const FINE: f64 = 1e-10;
 /// Most passes of the iteration.
 const MOST_PASSES: usize = 40;
 /// Unknowns of the block at the nodes.
@@ -342,15 +344,9 @@ impl Stepper<'_> {
             }
         }
         for k in 0..d {
-            let (mut dx, mut dv) = (0.0, 0.0);
-            for j in 0..NODES {
-                let share = rule.weights[j] * rates[k][j];
-                dv += share;
-                dx += share * (1.0 - rule.c[j]);
-            }
             (x[k][0], v[k][0]) = (from.x[k], from.v[k]);
-            x[k][POINTS - 1] = from.x[k] + h * (from.v[k] + h * dx);
-            v[k][POINTS - 1] = from.v[k] + h * dv;
+            [x[k][POINTS - 1], v[k][POINTS - 1]] =
+                rule.end(h, [from.x[k], from.v[k]], |j| rates[k][j]);
         }
         let most =
             |list: &[f64; NODES]| list.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
@@ -370,13 +366,7 @@ impl Stepper<'_> {
 /// The state at a node.
 fn node(rule: &Rule, h: f64, from: &State, rates: &Rates, i: usize, state: &mut State) {
     for k in 0..rates.len() {
-        let (mut dx, mut dv) = (0.0, 0.0);
-        for j in 0..NODES {
-            dv += rule.a[i][j] * rates[k][j];
-            dx += rule.aa[i][j] * rates[k][j];
-        }
-        state.v[k] = from.v[k] + h * dv;
-        state.x[k] = from.x[k] + h * (rule.c[i] * from.v[k] + h * dx);
+        [state.x[k], state.v[k]] = rule.node(i, h, [from.x[k], from.v[k]], |j| rates[k][j]);
     }
 }
 

@@ -3,11 +3,12 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, f64x8};
 
-use super::collocation::Rule;
-use super::lane::{Eight, LANES, Places, add_chain, all, chain_form, inlined, keep, larger};
-use super::law::Law;
-use super::outputs::Outputs;
-use super::structure::{StoreyDamping, Structure};
+use super::super::collocation::Rule;
+use super::super::judge::Figures;
+use super::super::lane::{Eight, LANES, Places, add_chain, all, chain_form, inlined, keep, larger};
+use super::super::law::Law;
+use super::super::outputs::Outputs;
+use super::super::structure::{StoreyDamping, Structure, larger as greatest};
 use crate::error::Stopped;
 use crate::progress::Pulse;
 use crate::response::{History, Mode};
@@ -16,6 +17,7 @@ use crate::response::{History, Mode};
 pub(super) const BATCH: usize = 64;
 
 /// The worst of all lanes so far.
+#[derive(Default)]
 pub(super) struct Worst {
     pub(super) displacement: [Eight; 2],
     pub(super) velocity: [Eight; 2],
@@ -30,16 +32,18 @@ pub(super) struct Worst {
 }
 
 impl Worst {
-    pub(super) const NONE: Self = Self {
-        displacement: [Eight::ZERO; 2],
-        velocity: [Eight::ZERO; 2],
-        force: [Eight::ZERO; 2],
-        table: Eight::ZERO,
-        excess: Eight::ZERO,
-        sliding: Eight::ZERO,
-        drift: [Eight::ZERO; 2],
-        broken: Eight::ZERO,
-    };
+    /// Adds it to the figures.
+    pub(super) fn enter(&self, figures: &mut Figures) {
+        for (figure, lanes) in [
+            (&mut figures.displacement, &self.displacement),
+            (&mut figures.velocity, &self.velocity),
+            (&mut figures.force, &self.force),
+        ] {
+            *figure = [0, 1].map(|i| greatest(figure[i], lanes[i].largest()));
+        }
+        figures.table[0] = greatest(figures.table[0], self.table.largest());
+        figures.excess = greatest(figures.excess, self.excess.largest());
+    }
 }
 
 /// What the lanes need of a model and its history.
@@ -77,6 +81,29 @@ pub(super) fn lists_of(h: &History, n: usize, degree: usize) -> ([&[f64]; 2], [u
         i => {
             let lists = [&h.contents_displacement_m[..], &h.contents_velocity_m_per_s];
             (lists, [h.interfaces - 1, i - 1 - n])
+        }
+    }
+}
+
+/// Accelerations of a degree's body and of what it moves over, whose difference is `ẍ`, likewise.
+#[inline(always)]
+pub(super) fn rates_of<'h>(
+    h: &'h History,
+    structure: &Structure,
+    n: usize,
+    degree: usize,
+) -> [(&'h [f64], [usize; 2]); 2] {
+    let floor = |floor: usize| match floor {
+        0 => (&h.block_acceleration_m_per_s2[..], [1, 0]),
+        i => (&h.storey_acceleration_m_per_s2[..], [n, i - 1]),
+    };
+    match degree {
+        0 => [floor(0), (&h.table_acceleration_m_per_s2, [1, 0])],
+        i if i <= n => [floor(i), floor(0)],
+        i => {
+            let (e, contents) = (i - 1 - n, &structure.contents);
+            let own = &h.contents_acceleration_m_per_s2[..];
+            [(own, [contents.len(), e]), floor(contents[e].floor)]
         }
     }
 }

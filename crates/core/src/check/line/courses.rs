@@ -1,11 +1,11 @@
 //! What is in force in an interval.
 
-use super::ground::Load;
-use super::group::{Course, Feed, Key, UNBOUNDED};
-use super::judge::{Judge, STILL};
-use super::law::Sliding;
-use super::line::Line;
-use super::structure::{Phase, larger};
+use super::super::ground::Load;
+use super::super::judge::{Judge, STILL};
+use super::super::law::{BOUNDLESS, Sliding, either};
+use super::super::structure::{Phase, larger};
+use super::Line;
+use super::group::{Course, Feed, Key};
 use crate::response::{Contact, Mode};
 
 impl<'a> Judge<'a, Line<'a>> {
@@ -34,19 +34,14 @@ impl<'a> Judge<'a, Line<'a>> {
     pub(super) fn course<'m>(&self, k: usize, modes: &'m [Mode], feed: Feed) -> Course<'m> {
         let s = self.h.sliding_displacement_m[k];
         let (mut friction, mut hold) = ([0.0; 2], [0.0; 2]);
-        let mut taken = [-UNBOUNDED, UNBOUNDED];
+        let mut taken = BOUNDLESS;
         let mut slides = 0.0;
         match modes[0] {
             Mode::Stick => {
-                hold = self.law.hold(self.h.surface_displacements(k));
-                let free = hold;
-                let [positive, negative] = self.law.leans(s);
-                if positive {
-                    (hold[0], taken[0]) = (-UNBOUNDED, free[0]);
-                }
-                if negative {
-                    (hold[1], taken[1]) = (UNBOUNDED, free[1]);
-                }
+                let free = self.law.hold(self.h.surface_displacements(k));
+                let leans = self.law.leans(s);
+                hold = either(leans, BOUNDLESS, free);
+                taken = either(leans, free, BOUNDLESS);
             }
             Mode::Slip(direction) => {
                 friction = match self.sliding(k, modes[0]) {

@@ -13,15 +13,12 @@
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
-use super::collocation::MAX_TURN;
-use super::ground::{Ground, Load, between};
+use super::super::collocation::MAX_TURN;
+use super::super::ground::{Ground, Load, between};
+use super::super::lane::{Eight, LANES, all};
+use super::super::law::{BOUNDLESS, Push, StickDemand, UNBOUNDED};
 use super::knots::LaneJudge;
-use super::lane::{Eight, LANES, all};
-use super::law::Push;
 use crate::response::Mode;
-
-/// Stands for no bound, so that it can be multiplied by 0.
-pub(super) const UNBOUNDED: f64 = 1e200;
 
 /// The way through an interval in equal steps under linear loads, piece after piece.
 #[derive(Clone, Copy, Default)]
@@ -37,7 +34,7 @@ pub(super) struct Feed {
 }
 
 /// One step of it.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub(super) struct Step {
     pub(super) from_s: f64,
     pub(super) step_s: f64,
@@ -150,6 +147,7 @@ pub(super) struct Carried {
 }
 
 /// Intervals to be judged side by side; the last stands for the lanes that are left.
+#[derive(Default)]
 pub(super) struct Group {
     pub(super) count: usize,
     pub(super) knots: [usize; LANES],
@@ -192,36 +190,12 @@ impl Group {
     pub(super) fn new(bench: &LaneJudge<'_>) -> Self {
         let s = bench.structure;
         let masses = || core::iter::once(s.block_kg).chain(s.masses_kg.iter().copied());
-        let rest = Step { from_s: 0.0, step_s: 0.0, loads: [Load::default(); 2] };
-        let pair = [Eight::ZERO; 2];
         Self {
-            count: 0,
-            knots: [0; LANES],
-            feeds: [Feed::default(); LANES],
-            steps: [rest; LANES],
-            step_s: Eight::ZERO,
-            before_s: Eight::ZERO,
-            length_s: Eight::ZERO,
-            table: pair,
-            normal: pair,
-            rise: pair,
-            drift: Eight::ZERO,
-            normal_rounding: Eight::ZERO,
-            stuck: Eight::ZERO,
-            sign: Eight::ZERO,
-            friction: pair,
-            affine: false,
-            drag: Eight::ZERO,
-            band: pair,
-            stop: [Eight::ZERO; 3],
-            hold: pair,
-            scale: pair,
-            taken: pair,
             at_once: true,
-            slides: Eight::ZERO,
             mass: masses().map(|m| Eight([m; LANES])).collect(),
             inverse: masses().map(|m| Eight([1.0 / m; LANES])).collect(),
             carried: vec![Carried::default(); s.contents.len()],
+            ..Self::default()
         }
     }
 
@@ -236,11 +210,10 @@ impl Group {
         self.slides.0[lane] = course.slides;
         self.normal_rounding.0[lane] = 0.0;
         let [low, high] = course.hold;
-        let most = low.abs().max(high.abs());
-        let most = if most < UNBOUNDED { most } else { 1.0 };
-        let straddles = low <= 0.0 && high >= 0.0;
-        self.scale[0].0[lane] = 1.0 / if straddles { most.min(-low) } else { most };
-        self.scale[1].0[lane] = 1.0 / if straddles { most.min(high) } else { most };
+        for (scale, demand) in self.scale.iter_mut().zip([-1.0, 1.0]) {
+            let bound = StickDemand { demand, low, high }.bound();
+            scale.0[lane] = 1.0 / if bound < UNBOUNDED { bound } else { 1.0 };
+        }
         for i in 0..2 {
             self.friction[i].0[lane] = course.friction[i];
             self.hold[i].0[lane] = course.hold[i];
@@ -250,7 +223,7 @@ impl Group {
             stop.0[lane] = value;
         }
         self.affine = course.piece.is_some();
-        let (per_n, band) = course.piece.unwrap_or((0.0, [-UNBOUNDED, UNBOUNDED]));
+        let (per_n, band) = course.piece.unwrap_or((0.0, BOUNDLESS));
         self.drag.0[lane] = per_n * course.feed.loads[0].normal;
         for (lanes, speed) in self.band.iter_mut().zip(band) {
             lanes.0[lane] = speed;
@@ -313,8 +286,8 @@ impl Group {
             for end in 0..2 {
                 group.rise[end].0[lane] = key.rise;
             }
-            group.taken[0].0[lane] = -UNBOUNDED;
-            group.taken[1].0[lane] = UNBOUNDED;
+            group.taken[0].0[lane] = BOUNDLESS[0];
+            group.taken[1].0[lane] = BOUNDLESS[1];
             group.normal[0].0[lane] = 1.0;
             group.normal[1].0[lane] = 1.0;
             let stuck = |e: usize| key.stuck >> (1 + e) & 1 == 1;
@@ -357,6 +330,14 @@ impl Group {
         self.knots[from..].fill(knot);
         if !self.at_once {
             self.feeds[from..].fill(feed);
+        }
+    }
+
+    /// 1 where an interface sticks, and the sign of its sliding.
+    pub(super) fn interface(&self, i: usize) -> [&Eight; 2] {
+        match i.checked_sub(1).map(|e| &self.carried[e]) {
+            None => [&self.stuck, &self.sign],
+            Some(carried) => [&carried.stuck, &carried.sign],
         }
     }
 

@@ -11,13 +11,13 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{dispatch, f64x8};
 
-use super::collocation::NODES;
+use super::super::collocation::NODES;
+use super::super::lane::{Eight, all, both, inlined, larger, smaller};
+use super::super::outputs::{FRICTION, Outputs};
+use super::super::structure::StoreyDamping;
 use super::group::Group;
 use super::knots::LaneJudge;
-use super::lane::{Eight, all, both, inlined, larger, smaller};
-use super::outputs::{FRICTION, Outputs};
-use super::path::Work;
-use super::structure::StoreyDamping;
+use super::work::Work;
 
 /// Loads and springs at a part of a step.
 #[derive(Clone, Copy)]

@@ -3,91 +3,15 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{dispatch, f64x8};
 
-use super::collocation::{MOST_PASSES, NODES, ROUNDING};
-use super::energy::Books;
-use super::ground::Ground;
+use super::super::collocation::{MOST_PASSES, NODES, ROUNDING};
+use super::super::ground::Ground;
+use super::super::lane::{Eight, LANES, Places, all, both, inlined, keep, larger};
+use super::super::outputs::Outputs;
 use super::group::Group;
-use super::knots::{LaneJudge, Worst, lists_of};
-use super::lane::{Eight, LANES, Places, all, both, inlined, keep, larger};
+use super::knots::{LaneJudge, lists_of, rates_of};
 use super::maps::{Maps, Spread};
-use super::margins::{Extremes, Watch};
-use super::outputs::Outputs;
-use super::sweep::MOST_TERMS;
+use super::work::{Pass, Spent, Work};
 use crate::error::Stopped;
-use crate::progress::Pulse;
-
-/// What is told of the energies of an interval.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Spent {
-    pub(super) work: Eight,
-    pub(super) size: Eight,
-    pub(super) damping: Eight,
-    pub(super) friction: Eight,
-    /// What the rounding of `N` makes of them.
-    pub(super) blur: Eight,
-}
-
-/// Inputs and paths of a group under judgement.
-pub(super) struct Work {
-    pub(super) input: Vec<Eight>,
-    /// The inputs that are not 0, and a state at a node.
-    pub(super) active: Vec<Eight>,
-    /// Of an even interval: Legendre's terms, then the velocities at its end.
-    pub(super) sums: Vec<Eight>,
-    state: Vec<(Eight, Eight)>,
-    /// Accelerations of the block, the floors and the contents, with the slope's share.
-    pub(super) bodies: Vec<Eight>,
-    /// `v` at the nodes, `x` and `v` at the end, what is asked of each interface at the nodes.
-    pub(super) path: Vec<Eight>,
-    /// `x` at the nodes, and `ẍ` where the equations were solved.
-    pub(super) trace: Vec<Eight>,
-    pub(super) fastest: Vec<Eight>,
-    /// Outputs at the nodes, and at the ends of a step within an interval.
-    pub(super) values: Vec<Eight>,
-    pub(super) ends: [Vec<Eight>; 2],
-    pub(super) seen: Vec<Extremes>,
-    pub(super) spent: Spent,
-    pub(super) watch: Vec<Watch<Eight>>,
-}
-
-impl Work {
-    pub(super) fn new(bench: &LaneJudge<'_>, outputs: usize) -> Self {
-        let zeros = |count: usize| vec![Eight::ZERO; count];
-        let (d, e) = (bench.structure.degrees(), bench.structure.contents.len());
-        Self {
-            input: zeros(bench.inputs() + 2),
-            active: zeros(bench.inputs()),
-            sums: zeros((MOST_TERMS + 1) * d),
-            state: vec![(Eight::ZERO, Eight::ZERO); d],
-            bodies: zeros(d),
-            path: zeros((NODES + 2) * d + NODES * (1 + e)),
-            trace: zeros(2 * NODES * d),
-            fastest: zeros(d),
-            values: zeros(NODES * outputs),
-            ends: [zeros(outputs), zeros(outputs)],
-            seen: vec![Extremes::default(); 1 + e],
-            spent: Spent::default(),
-            watch: vec![Watch::default(); 1 + e],
-        }
-    }
-
-    /// Starts where the last step has ended.
-    pub(super) fn go_on(&mut self, degrees: usize) {
-        self.input[..2 * degrees]
-            .copy_from_slice(&self.path[NODES * degrees..(NODES + 2) * degrees]);
-    }
-}
-
-/// What a pass through groups reads and changes besides them.
-pub(super) struct Pass<'p, 'g> {
-    pub(super) ground: &'p mut Ground<'g>,
-    pub(super) outputs: &'p Outputs,
-    pub(super) attained: &'p mut [f64],
-    pub(super) books: &'p mut Books,
-    pub(super) work: &'p mut Work,
-    pub(super) worst: &'p mut Worst,
-    pub(super) pulse: &'p mut Pulse<'g>,
-}
 
 impl LaneJudge<'_> {
     /// Judges a group by the maps of its step, or by solving the equations of each.
@@ -141,7 +65,7 @@ impl LaneJudge<'_> {
             watch[i].fastest = fastest[at];
         }
         self.arrive(simd, n, group, &places, pass);
-        pass.books.put(&group.knots, &pass.work.spent);
+        pass.work.spent.enter(&group.knots, pass.books);
         Ok(())
     }
 
@@ -249,20 +173,9 @@ impl LaneJudge<'_> {
         places: &Places,
         later: usize,
     ) -> f64x8<S> {
-        let h = self.history;
-        let floor = inlined!(|floor: usize| match floor {
-            0 => places.read(simd, &h.block_acceleration_m_per_s2, later, [1, 0]),
-            i => places.read(simd, &h.storey_acceleration_m_per_s2, later, [n, i - 1]),
-        });
-        if degree == 0 {
-            floor(0) - places.read(simd, &h.table_acceleration_m_per_s2, later, [1, 0])
-        } else if degree <= n {
-            floor(degree) - floor(0)
-        } else {
-            let (e, contents) = (degree - 1 - n, &self.structure.contents);
-            let list = &h.contents_acceleration_m_per_s2;
-            places.read(simd, list, later, [contents.len(), e]) - floor(contents[e].floor)
-        }
+        let [own, under] = rates_of(self.history, self.structure, n, degree);
+        let [own, under] = [own, under].map(|(list, at)| places.read(simd, list, later, at));
+        own - under
     }
 
     /// Solves the collocation equations of every lane by iteration, which begins with the line between
@@ -289,15 +202,9 @@ impl LaneJudge<'_> {
         let Work { input, state, path, trace, bodies, .. } = work;
         let (places, rates) = trace.split_at_mut(NODES * d);
         let h = group.step_s.load(simd);
+        let start = inlined!(|k: usize| [input[k].load(simd), input[d + k].load(simd)]);
         let node = inlined!(|rates: &[Eight], i: usize, k: usize| {
-            let (mut dx, mut dv) = (all(simd, 0.0), all(simd, 0.0));
-            for j in 0..NODES {
-                let rate = rates[j * d + k].load(simd);
-                dv += all(simd, rule.a[i][j]) * rate;
-                dx += all(simd, rule.aa[i][j]) * rate;
-            }
-            let (x0, v0) = (input[k].load(simd), input[d + k].load(simd));
-            (x0 + h * (all(simd, rule.c[i]) * v0 + h * dx), v0 + h * dv)
+            rule.node(i, h, start(k), inlined!(|j: usize| rates[j * d + k].load(simd)))
         });
         rates.fill(Eight::ZERO);
         if let Some(places) = stored {
@@ -319,7 +226,7 @@ impl LaneJudge<'_> {
             let (mut change, mut size) = (all(simd, 0.0), all(simd, 0.0));
             for i in 0..NODES {
                 for (k, (x, v)) in state.iter_mut().enumerate() {
-                    let (place, speed) = node(rates, i, k);
+                    let [place, speed] = node(rates, i, k);
                     x.store(place);
                     v.store(speed);
                 }
@@ -348,20 +255,14 @@ impl LaneJudge<'_> {
             last.store(change);
         }
         for k in 0..d {
-            let (mut dx, mut dv) = (all(simd, 0.0), all(simd, 0.0));
-            for j in 0..NODES {
-                let share = all(simd, rule.weights[j]) * rates[j * d + k].load(simd);
-                dv += share;
-                dx += share * all(simd, 1.0 - rule.c[j]);
-            }
-            let (x0, v0) = (input[k].load(simd), input[d + k].load(simd));
-            path[NODES * d + k].store(x0 + h * (v0 + h * dx));
-            path[(NODES + 1) * d + k].store(v0 + h * dv);
+            let [x, v] = rule.end(h, start(k), inlined!(|j: usize| rates[j * d + k].load(simd)));
+            path[NODES * d + k].store(x);
+            path[(NODES + 1) * d + k].store(v);
         }
         let asks = group.asks();
         for i in 0..NODES {
             for (k, (x, v)) in state.iter_mut().enumerate() {
-                let (place, speed) = node(rates, i, k);
+                let [place, speed] = node(rates, i, k);
                 x.store(place);
                 v.store(speed);
                 places[i * d + k].store(place);

@@ -2,12 +2,12 @@
 
 use fearless_simd::prelude::*;
 
-use super::collocation::NODES;
+use super::super::collocation::NODES;
+use super::super::lane::{Places, all, both, keep, larger};
+use super::super::outputs::{BLOCK, FRICTION, STOP};
 use super::group::Group;
 use super::knots::{LaneJudge, lists_of};
-use super::lane::{Places, all, both, keep, larger};
-use super::outputs::{BLOCK, FRICTION, STOP};
-use super::path::Pass;
+use super::work::Pass;
 
 impl LaneJudge<'_> {
     /// Compares the ends of the paths with the knots stored there.

@@ -2,13 +2,12 @@
 
 use fearless_simd::prelude::*;
 
-use super::collocation::NODES;
+use super::super::collocation::{NODES, legendre};
+use super::super::lane::{Eight, LANES, add_chain, all};
+use super::super::outputs::Outputs;
 use super::group::{Group, Key};
 use super::knots::{BATCH, LaneJudge};
-use super::lane::{Eight, LANES, add_chain, all};
-use super::outputs::Outputs;
-use super::path::Work;
-use super::sweep::legendre;
+use super::work::Work;
 
 /// A map from inputs, row by row, of inputs that are not 0.
 pub(super) struct Map {

@@ -2,17 +2,18 @@
 
 use fearless_simd::dispatch;
 
-use super::collocation::MAX_TURN;
-use super::group::{Course, Group, Key, UNBOUNDED};
-use super::judge::{Judge, Run, STILL};
+use super::super::collocation::{MAX_TURN, terms};
+use super::super::judge::{Judge, Run, STILL};
+use super::super::lane::LANES;
+use super::super::law::{StickDemand, UNBOUNDED};
+use super::super::outputs::{FRICTION, SLIDER, VELOCITY};
+use super::Line;
+use super::group::{Course, Group, Key};
 use super::knots::{LaneJudge, Worst};
-use super::lane::LANES;
-use super::line::Line;
 use super::maps::{Maps, Spread};
-use super::margins::{Points, Watch};
-use super::outputs::{FRICTION, SLIDER, VELOCITY};
-use super::path::{Pass, Work};
-use super::sweep::{Even, EvenRun, Floors, MOST_STEPS, terms};
+use super::sweep::{Even, EvenRun, Floors, Kind, MOST_STEPS};
+use super::watch::{Watch, Watched};
+use super::work::{Pass, Work};
 use crate::error::Stopped;
 use crate::response::{Contact, Mode};
 use crate::slider::Direction;
@@ -22,34 +23,11 @@ const MOST_KEYS: usize = 16;
 /// Buckets of intervals by the power of two of their steps.
 const BUCKETS: usize = 34;
 
-/// Intervals of one key: even ones swept, or by maps; odd ones by their equations.
-pub(super) struct Kind {
-    key: Key,
-    pub(super) even: Option<Even>,
-    mapped: Group,
-    odd: Group,
-    maps: Option<Maps>,
-    pub(super) spread: Spread,
-}
-
-/// Intervals that were looked at by their paths, and how many have been recalled in order of time.
-#[derive(Default)]
-pub(super) struct Watched {
-    /// In order.
-    pub(super) knots: Vec<usize>,
-    /// One an interface.
-    pub(super) watch: Vec<Watch<f64>>,
-    pub(super) recalled: usize,
-    /// Points of those in which a decision may have been close.
-    pub(super) points: Vec<Points>,
-    pub(super) looked_at: usize,
-}
-
 impl<'a> Judge<'a, Line<'a>> {
     /// Judges all intervals eight at a time; looks for peaks where there may be some.
     pub(super) fn side_by_side(&mut self) -> Result<(), Stopped> {
         let (h, bench) = (self.h, self.bench());
-        let mut worst = Worst::NONE;
+        let mut worst = Worst::default();
         let mut work = Work::new(&bench, self.outputs.len());
         let mut kinds: Vec<Kind> = Vec::new();
         let (even, mut others) = self.even_runs(&mut kinds, &mut work);
@@ -102,7 +80,7 @@ impl<'a> Judge<'a, Line<'a>> {
         for group in rest.iter_mut().flatten() {
             flush(&bench, group, (None, None), &mut pass, &mut watched)?;
         }
-        self.figures.take(&worst);
+        worst.enter(&mut self.figures);
         self.drift = worst.drift.map(|drift| drift.largest());
         self.still = (STILL * worst.sliding.largest()).max(self.still);
         self.axes.watched = watched;
@@ -249,7 +227,7 @@ impl<'a> Judge<'a, Line<'a>> {
                 kind.spread.forget();
             }
         }
-        let ways = [Direction::Positive, Direction::Negative];
+        let ways = Direction::BOTH;
         let drops = (0..self.h.interfaces).map(|i| ways.iter().any(|way| self.drops(i, *way)));
         let drops: Vec<bool> = drops.collect();
         let speeds = fastest.iter().zip(&drops).map(|(fastest, drops)| match drops {
@@ -280,10 +258,7 @@ impl<'a> Judge<'a, Line<'a>> {
             return;
         }
         let [low, high] = self.law.hold(&[]).map(|per_n| per_n * self.largest.0);
-        let margin = |demand: f64| {
-            let bound = if demand > 0.0 { high } else { -low };
-            (bound > 0.0).then(|| 1.0 - demand.abs() / bound)
-        };
+        let margin = |demand: f64| StickDemand { demand, low, high }.margin();
         let sticks = |run: &&Run| {
             let contact = h.contact.get(run.from);
             h.modes(run.from)[0] == Mode::Stick && contact.is_none_or(|c| *c == Contact::Free)
@@ -340,7 +315,7 @@ impl<'a> Judge<'a, Line<'a>> {
         let bench = self.bench();
         let mut found = Vec::new();
         let mut work = Work::new(&bench, self.outputs.len());
-        let mut worst = Worst::NONE;
+        let mut worst = Worst::default();
         let mut group = Group::new(&bench);
         let Watched { knots, watch, .. } = &self.axes.watched;
         let watch = watch.chunks_exact(self.h.interfaces);

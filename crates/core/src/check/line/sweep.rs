@@ -15,41 +15,26 @@
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
-use super::collocation::NODES;
-use super::ground::Ground;
+use super::super::collocation::NODES;
+use super::super::ground::Ground;
+use super::super::lane::{Eight, LANES, Places, all, both, inlined, larger, smaller};
+use super::super::outputs::{FRICTION, VELOCITY};
 use super::group::{Course, Group, Key};
-use super::intervals::Kind;
 use super::knots::{BATCH, LaneJudge};
-use super::lane::{Eight, LANES, Places, all, both, inlined, larger, smaller};
-use super::maps::{Map, Spread};
-use super::outputs::{FRICTION, VELOCITY};
-use super::path::{Pass, Spent, Work};
+use super::maps::{Map, Maps, Spread};
+use super::work::{Pass, Spent, Work};
 use crate::error::Stopped;
 
 /// Most steps of an interval whose outputs are bounded from its ends.
 pub(super) const MOST_STEPS: usize = 2;
-/// Most Legendre terms of a velocity.
-pub(super) const MOST_TERMS: usize = 9;
-
-/// How many Legendre terms a velocity has over so many radians: what is left out is below 1e-8 of it, its
-/// square below rounding.
-pub(super) fn terms(turn: f64) -> usize {
-    let (mut terms, mut size) = (2, 0.5 * turn);
-    while terms < MOST_TERMS && size > 1e-8 {
-        size *= 0.5 * turn / (2.0 * terms as f64 - 1.0);
-        terms += 1;
-    }
-    terms
-}
-
-/// Legendre's polynomial `P_l(z)`.
-pub(super) fn legendre(l: usize, z: f64) -> f64 {
-    let (mut p, mut before) = (1.0, 0.0);
-    for k in 1..=l {
-        let k = k as f64;
-        (p, before) = (((2.0 * k - 1.0) * z * p - (k - 1.0) * before) / k, p);
-    }
-    p
+/// Intervals of one key: even ones swept, or by maps; odd ones by their equations.
+pub(super) struct Kind {
+    pub(super) key: Key,
+    pub(super) even: Option<Even>,
+    pub(super) mapped: Group,
+    pub(super) odd: Group,
+    pub(super) maps: Option<Maps>,
+    pub(super) spread: Spread,
 }
 
 /// The even intervals of one key.
@@ -281,7 +266,7 @@ impl LaneJudge<'_> {
             self.sides(simd, (group, end), &places, pass);
         }
         self.arrive(simd, n, group, &places, pass);
-        pass.books.put(&group.knots, &pass.work.spent);
+        pass.work.spent.enter(&group.knots, pass.books);
         let mut named = 0;
         for i in 0..way.deciding.len() {
             named |= self.near(simd, i, (way, spread), (group, &places), floors, pass.work);
@@ -366,7 +351,8 @@ impl LaneJudge<'_> {
     fn turns<S: Simd>(&self, simd: S, i: usize, (group, places): (&Group, &Places)) -> u64 {
         let s = self.structure;
         let place = (s.masses_kg.len(), s.degree_of(i));
-        let sign = i.checked_sub(1).map_or(&group.sign, |i| &group.carried[i].sign).load(simd);
+        let [_, sign] = group.interface(i);
+        let sign = sign.load(simd);
         let [first, last] = both!(|end| sign * self.stored_rate(simd, place, places, end));
         let zero = all(simd, 0.0);
         (first.simd_gt(zero) & last.simd_lt(zero)).to_bitmask()
@@ -383,16 +369,9 @@ impl LaneJudge<'_> {
         floors: &Floors,
         work: &mut Work,
     ) -> u64 {
-        let (s, deciding) = (self.structure, &way.deciding[i]);
+        let deciding = &way.deciding[i];
         let [from, to] = both!(|end| self.decides(simd, i, deciding.sticks, (group, places, end)));
         let pair = inlined!(|pair: &[Eight; 2]| [pair[0].load(simd), pair[1].load(simd)]);
-        let [hold, scale] = match i.checked_sub(1) {
-            None => [pair(&group.hold), pair(&group.scale)],
-            Some(i) => {
-                let fixed = s.contents[i].static_friction / s.total_kg;
-                [[all(simd, -fixed), all(simd, fixed)], [all(simd, 1.0 / fixed); 2]]
-            }
-        };
         let [first, second] = pair(&group.normal);
         let normal = [smaller(first, second), larger(first, second)];
         let reaches = inlined!(|off: f64x8<S>| {
@@ -407,7 +386,7 @@ impl LaneJudge<'_> {
             let zero = all(simd, 0.0);
             let most = high / high.simd_gt(zero).select(normal[0], normal[1]);
             let least = low / low.simd_lt(zero).select(normal[0], normal[1]);
-            let margin = smaller((hold[1] - most) * scale[1], (least - hold[0]) * scale[0]);
+            let margin = self.margin(simd, i, group, [least, most]);
             !margin.simd_ge(all(simd, floors.margin)).to_bitmask()
         });
         let lanes = (1 << LANES) - 1;

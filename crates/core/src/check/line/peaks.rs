@@ -3,14 +3,15 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{dispatch, f64x8};
 
-use super::collocation::{NODES, POINTS};
-use super::group::{Group, UNBOUNDED};
+use super::super::collocation::{NODES, POINTS};
+use super::super::lane::{Eight, LANES, all, both, inlined, larger, smaller};
+use super::super::law::UNBOUNDED;
+use super::super::outputs::{Outputs, raise_size};
+use super::super::structure::larger as greatest;
+use super::group::Group;
 use super::knots::LaneJudge;
-use super::lane::{Eight, LANES, all, both, inlined, larger, smaller};
 use super::maps::{Maps, Spread};
-use super::outputs::{Outputs, raise};
-use super::path::{Pass, Work};
-use super::structure::larger as greatest;
+use super::work::{Pass, Work};
 
 /// All lanes.
 const ALL: u64 = (1 << LANES) - 1;
@@ -157,7 +158,7 @@ impl LaneJudge<'_> {
             for (point, node) in points[1..].iter_mut().zip(nodes) {
                 *point = node.0[lane];
             }
-            raise(self.rule, peak, &points);
+            raise_size(self.rule, peak, &points, false);
         }
     }
 }

@@ -2,16 +2,16 @@
 
 use core::ops::Range;
 
-use super::events::SLOWEST_IMPACT_M_PER_S;
-use super::ground::{Load, nearest};
-use super::group::{Feed, Group, UNBOUNDED};
-use super::judge::{Directions, Judge};
-use super::law::StickDemand;
-use super::line::Line;
-use super::outputs::{FRICTION, STOREYS};
-use super::path::Work;
-use super::structure::larger;
-use super::{ClosestCall, DecisionKind};
+use super::super::events::SLOWEST_IMPACT_M_PER_S;
+use super::super::ground::{Load, nearest};
+use super::super::judge::{Directions, Judge};
+use super::super::law::{BOUNDLESS, StickDemand, UNBOUNDED, either};
+use super::super::outputs::{FRICTION, STOREYS};
+use super::super::structure::larger;
+use super::super::{ClosestCall, DecisionKind};
+use super::Line;
+use super::group::{Feed, Group};
+use super::work::Work;
 use crate::response::Mode;
 use crate::slider::Direction;
 
@@ -217,22 +217,14 @@ impl<'a> Judge<'a, Line<'a>> {
     /// too.
     fn hold_at(&self, k: usize, leans: bool) -> [f64; 2] {
         let stored = self.h.surface_displacements(k);
-        let mut hold = match self.before(k)[0] {
+        let hold = match self.before(k)[0] {
             Mode::Slip(slid) if self.law.series.is_some() => {
                 self.law.hold(&self.law.off_ends(stored, slid))
             }
             _ => self.law.hold(stored),
         };
-        if leans {
-            let [positive, negative] = self.law.leans(self.h.sliding_displacement_m[k]);
-            if positive {
-                hold[0] = -UNBOUNDED;
-            }
-            if negative {
-                hold[1] = UNBOUNDED;
-            }
-        }
-        hold
+        let stops = self.law.leans(self.h.sliding_displacement_m[k]).map(|stop| stop && leans);
+        either(stops, BOUNDLESS, hold)
     }
 
     /// What an interface at rest is asked for by the forces at a change, with the rounding of it.

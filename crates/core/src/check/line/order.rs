@@ -1,15 +1,16 @@
 //! Intervals in order of time: near decisions, paths, surfaces, stops.
 
-use super::collocation::{POINTS, Rule};
-use super::ground::between;
+use super::super::collocation::{POINTS, Rule};
+use super::super::ground::between;
+use super::super::judge::{Directions, Judge, Run};
+use super::super::near::dip;
+use super::super::outputs::VELOCITY;
+use super::super::structure::{excess, larger};
+use super::Line;
 use super::group::{Feed, Group};
-use super::judge::{Directions, Judge, Run};
-use super::line::Line;
-use super::margins::{Points, Watch};
-use super::near::dip;
-use super::outputs::VELOCITY;
-use super::path::Work;
-use super::structure::{excess, larger};
+use super::knots::rates_of;
+use super::watch::{Points, Watch};
+use super::work::Work;
 use crate::response::{Contact, Mode};
 use crate::slider::Direction;
 
@@ -168,19 +169,9 @@ impl<'a> Judge<'a, Line<'a>> {
 
     /// `ẍ` of a degree from the accelerations stored at a knot.
     fn acceleration(&self, k: usize, degree: usize) -> f64 {
-        let (h, n) = (self.h, self.h.storeys);
-        let floor = |floor: usize| match floor {
-            0 => h.block_acceleration_m_per_s2[k],
-            i => h.storey_accelerations(k)[i - 1],
-        };
-        match degree {
-            0 => floor(0) - h.table_acceleration_m_per_s2[k],
-            i if i <= n => floor(i) - floor(0),
-            i => {
-                let e = i - 1 - n;
-                h.contents_state(k, e)[2] - floor(self.axes.structure.contents[e].floor)
-            }
-        }
+        let rates = rates_of(self.h, self.axes.structure, self.h.storeys, degree);
+        let [own, under] = rates.map(|(list, [stride, i])| list[k * stride + i]);
+        own - under
     }
 
     /// Raises the peaks by the outputs at the first or the last knot, where no interval tells those that
