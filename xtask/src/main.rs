@@ -34,6 +34,10 @@ Usage: cargo xtask TASK
                                  times frames of 0 to 20 storeys, their histories and certificates,
                                  beside a numba loop for frames
                                  (--write: into book/src/generated/storeys.md)
+  bench-structure [--quick] [--write]
+                                 a frame of OpenSees on a sliding slab: its time history beside
+                                 the run by its modes, all and fewer (needs python3; makes .venv)
+                                 (--write: into book/src/generated/structure.md)
   bench-study [--quick] [--write]
                                  times the far-field study on one thread and two, in a numba loop
                                  and in OpenSeesPy; reads it as readers does (needs its records)
@@ -80,6 +84,7 @@ fn main() -> ExitCode {
         ["paper", options @ ..] => paper::paper(options),
         ["bench-peers", options @ ..] => peers::bench_peers(options),
         ["bench-storeys", options @ ..] => peers::bench_storeys(options),
+        ["bench-structure", options @ ..] => peers::bench_structure(options),
         ["bench-study", options @ ..] => peers::bench_study(options),
         ["bench-python", options @ ..] => peers::bench_python(options),
         ["python-docs", options @ ..] => python::docs(options),

@@ -53,6 +53,14 @@ pub fn bench_storeys(options: &[&str]) -> Outcome {
     bench.run("storeys_bench.py", &[("--helper", helper)])
 }
 
+/// A frame of OpenSees on a sliding slab in two directions: its time history beside the run by its modes.
+pub fn bench_structure(options: &[&str]) -> Outcome {
+    let bench = Bench::new("structure", options, &["--quick", "--write"])?;
+    shell::run(&mut shell::cargo("build --release -p slipstick-cli"))?;
+    let slipstick = built(&bench.target, "release", "slipstick");
+    bench.run("structure.py", &[("--slipstick", slipstick)])
+}
+
 /// Reading and response spectra timed beside NumPy, ObsPy, eqsig and pyrotd.
 pub fn bench_records(options: &[&str]) -> Outcome {
     let bench = Bench::new("records", options, &["--quick", "--write"])?;

@@ -228,6 +228,17 @@ fn opensees_report_and_eigenvectors() {
     assert!(csv.starts_with("period_s,participation_x,participation_y,10_x,10_y,20_x,"), "{csv}");
 }
 
+/// A report of all modes, whose masses of six digits sum to a little more than there is.
+#[test]
+fn modes_that_sum_to_more_by_their_last_digit_have_all_of_the_mass() {
+    let more = REPORT.replacen("166.41 ", "169.819 ", 1);
+    let table = opensees(&more).expect("a table");
+    let sum = table.sum(1, None).expect("a mass");
+    assert!((sum - 1.0).abs() < 1e-15, "{sum}");
+    let note = table.notes.last().expect("a note");
+    assert!(note.starts_with("the effective masses along y sum to 1.0000"), "{note}");
+}
+
 #[test]
 fn opensees_faults_are_told_where_they_are() {
     let message = |report: &str| opensees(report).expect_err("a fault").to_string();

@@ -156,6 +156,16 @@ impl System {
         }
     }
 
+    /// The same without kinetic friction, from rest.
+    fn without_kinetic_friction(&self) -> Self {
+        Self {
+            friction: [self.friction[0], 0.0],
+            by_speed: None,
+            initial: [[0.0; 2]; 2],
+            ..self.clone()
+        }
+    }
+
     /// The same with all vectors changed.
     fn changed(&self, of: impl Fn([f64; 2]) -> [f64; 2]) -> Self {
         let [x, y] = &self.table;
@@ -378,6 +388,20 @@ fn prop_collinear_samples_change_nothing() {
 fn prop_motion_along_a_line_is_motion_in_one_direction() {
     all_agree("along a line", true, |seed, system| {
         (system.along_x(), system.along_a_line(0.3 + 0.9 * seed as f64).response())
+    });
+}
+
+/// Without kinetic friction nothing turns a motion to a line, and what passes rest on one is held there as in
+/// one direction.
+#[test]
+fn prop_without_kinetic_friction_a_line_is_one_direction() {
+    all_agree("along a line without kinetic friction", true, |seed, system| {
+        let system = system.without_kinetic_friction();
+        let along = system.along_a_line(0.3 + 0.9 * seed as f64);
+        let (model, motion, response) = (along.model(), along.motion(), along.response());
+        let certificate = check(&model, &motion, &response);
+        assert!(certificate.holds(), "seed {seed}: {:?}", certificate.closest_call);
+        (system.along_x(), response)
     });
 }
 

@@ -284,3 +284,23 @@ fn a_script_for_opensees_is_printed_in_one_and_in_two_directions() {
     ]);
     assert!(refused.contains("--to-opensees: "), "{refused}");
 }
+
+/// A block released by one bit more than friction starts with no acceleration but the rounding of it, which once
+/// kept the first step from having a length.
+#[test]
+fn a_release_by_one_bit_more_than_friction_moves_on() {
+    let folder = Folder::new("plane-release");
+    let example = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/taft.toml");
+    let mut arguments = vec!["run", example];
+    for set in [
+        "motion.record_y=records/taft-021.txt",
+        "motion.rotate=90 deg",
+        "motion.scale_to=0.5 g",
+        "slider.static_friction=0.1",
+        "slider.kinetic_friction=0.1",
+    ] {
+        arguments.extend(["--set", set]);
+    }
+    let answer = folder.stdout(&arguments);
+    assert!(answer.contains("Check    passed"), "{answer}");
+}

@@ -91,13 +91,33 @@ pub fn read_modes(
     let mut sources = Sources::default();
     let texts: Vec<(usize, &str)> =
         files.iter().map(|(name, text)| (sources.add(name, text), *text)).collect();
-    match texts.iter().position(|(_, text)| text.contains(OPENSEES_TITLE)) {
-        Some(report) => opensees::read(&sources, &texts, report, options),
-        None => csi::read(&sources, &texts, options),
-    }
+    let mut table = match texts.iter().position(|(_, text)| text.contains(OPENSEES_TITLE)) {
+        Some(report) => opensees::read(&sources, &texts, report, options)?,
+        None => csi::read(&sources, &texts, options)?,
+    };
+    table.fit_to_mass();
+    Ok(table)
 }
 
 impl ModalTable {
+    /// Divides what the modes have of the mass by its sum, where that exceeds all of it by the rounding of printed
+    /// digits; notes it.
+    fn fit_to_mass(&mut self) {
+        for (axis, name) in ["x", "y"].into_iter().enumerate() {
+            let Some(sum) = self.sum(axis, None).filter(|sum| *sum > 1.0) else { continue };
+            for mode in &mut self.modes {
+                mode.shares[axis] = mode.shares[axis].map(|share| match share {
+                    Share::Participation(l) => Share::Participation(l / sum.sqrt()),
+                    Share::Ratio(ratio) => Share::Ratio(ratio / sum),
+                });
+            }
+            self.notes.push(format!(
+                "the effective masses along {name} sum to {sum:.7} of the mass, by the rounding of their digits: \
+                 all are divided by it"
+            ));
+        }
+    }
+
     /// The effective mass of a mode along x (0) or y (1) in kg, where its share or the mass is known: `mass_kg`
     /// takes the place of what the files say.
     #[must_use]

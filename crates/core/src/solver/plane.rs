@@ -139,7 +139,7 @@ impl<'a> Plane<'a> {
             let leaves = core::mem::take(&mut self.is_released) || self.leaves(loads, &at);
             return leaves.then(|| Due::Slip(self.direction_of(&at, loads)));
         }
-        if hold.excess(push, normal_n) <= 0.0 {
+        if hold.excess(push, normal_n) <= 0.0 || !self.leaves(loads, &at) {
             return Some(Due::Stick(hold.margin(push, normal_n)));
         }
         Some(Due::GoOn(self.system.departure(at.push, at.friction)))
@@ -213,8 +213,8 @@ impl<'a> Phase<'a> for Plane<'a> {
             Mode::Stick => walk.phase.hold(stretch, at_s),
             Mode::Slip(_) => walk.phase.slide(stretch, at_s),
         };
-        // Steps without length are as many as events at most.
-        walk.course.events_in_interval += 1;
+        // A step is counted as an event, one without length as a thousand: none of these moves on.
+        walk.course.events_in_interval += if to_s > at_s { 1 } else { 1000 };
         let is_near_rest = matches!(walk.phase.series.kind, Kind::NearRest | Kind::Turning);
         if is_near_rest && to_s < stretch.to_s {
             walk.record(stretch, to_s, false);

@@ -140,14 +140,17 @@ impl Step {
         let inside: [f64; NODES] = core::array::from_fn(|i| speeds[1 + i]);
         let whole: f64 = rule.weights.iter().zip(&inside).map(|(b, r)| b * r).sum();
         let last = [NODES - 2, NODES - 1].map(|k| coefficient(rule, k, &inside).abs());
-        let corners: Vec<f64> = (0..POINTS)
-            .filter(|&i| speeds[i] <= 0.1 * whole && is_least(&speeds, i))
-            .map(|i| rule.least_of((i, speeds[i] * speeds[i]), |t| speed(t) * speed(t)).0)
-            .filter(|t| *t > 0.0 && *t < 1.0)
-            .collect();
-        if corners.is_empty() && last[0].max(last[1]) <= 1e-7 * whole {
+        // A corner beside an end shows in no coefficient, and none shows where a part ends beside it.
+        let is_inside = |i: usize| i > 0 && i + 1 < POINTS;
+        let is_low =
+            |i: &usize| is_least(&speeds, *i) && (is_inside(*i) || speeds[*i] <= 0.1 * whole);
+        let low: Vec<usize> = (0..POINTS).filter(is_low).collect();
+        if low.is_empty() && last[0].max(last[1]) <= 1e-7 * whole {
             return self.stretch.step_s * whole;
         }
+        let least = |i: usize| rule.least_of((i, speeds[i] * speeds[i]), |t| speed(t) * speed(t)).0;
+        let inner = |t: &f64| *t > 0.0 && *t < 1.0;
+        let corners: Vec<f64> = low.into_iter().map(least).filter(inner).collect();
         let ends = [&[0.0], &corners[..], &[1.0]].concat();
         let mut parts: Vec<_> = ends.windows(2).map(|e| (e[0], e[1], over(e[0], e[1]))).collect();
         let mut sum = 0.0;

@@ -323,6 +323,12 @@ impl Series {
             self.s[axis][k + 1] = per * self.w[axis][k];
             self.w[axis][k + 1] = per * (block[axis] - table);
         }
+        if self.kind == Kind::Start && k == 0 {
+            // w_1 = r_1 u_0, where the difference above is rounding.
+            for axis in 0..2 {
+                self.w[axis][1] = self.speed[1] * self.direction[axis][0];
+            }
+        }
         let (at, next) = (k * modes, (k + 1) * modes);
         for j in 0..modes {
             let l = [system.participation[0][j], system.participation[1][j]];

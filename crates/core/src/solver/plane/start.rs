@@ -24,10 +24,6 @@ impl Series {
             let e = if size > 0.0 { push.map(|p| p / size) } else { [1.0, 0.0] };
             along.axes = [e, [-e[1], e[0]]];
             (along.cosine[0], self.speed[1]) = (1.0, h * beyond(size, f));
-            // b = a + (|p| − f) e₁: what of it is rounding is none.
-            for axis in 0..2 {
-                self.pull[axis][0] = self.table(axis, 0) + (f + beyond(size, f)) * e[axis];
-            }
         } else {
             for (w, e) in along.w.iter_mut().zip(along.axes) {
                 w[k] = inner([self.w[0][k], self.w[1][k]], e);
@@ -84,13 +80,6 @@ impl Series {
             };
             along.axes = [e, [-e[1], e[0]]];
             (along.cosine[0], self.speed[1]) = (1.0, h * rate);
-            if rate == 0.0 {
-                // b = a: what of it is rounding is none.
-                let carried = times(&mass.relative, [self.table(0, 0), self.table(1, 0)]);
-                for axis in 0..2 {
-                    self.pull[axis][0] = carried[axis] + f[0] * e[axis];
-                }
-            }
         } else {
             let (c, s) = (&along.cosine, &along.sine);
             let within = |p: &Polynomial| if k > 1 { convolved(&p[1..k], &p[1..k]) } else { 0.0 };

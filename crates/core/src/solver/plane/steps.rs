@@ -2,12 +2,11 @@
 
 use super::Plane;
 use super::near_rest;
-use super::peaks::squared;
 use super::series::{Kind, square};
-use super::speed::{path_m, turns};
+use super::speed::{path_m, slope_of, turns};
 use super::stop::{Instant, REST};
 use super::system::{Loads, inner, norm};
-use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, derivative, value};
+use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, value};
 use crate::solver::ground::Stretch;
 use crate::solver::slider::{ROUNDING, falls_below, first_crossing, leading};
 
@@ -169,9 +168,8 @@ impl Plane<'_> {
         if self.system.hold.radius(1.0) == 0.0 || (normal == 0.0 && rate == 0.0) {
             return None;
         }
-        let slope = derivative(&squared(&series.w));
         let mut peak = self.peak_speed;
-        for (x, is_least) in turns(&slope, series.part) {
+        for (x, is_least) in turns(slope_of(series), series.part) {
             let speed = norm(series.velocity_at(x));
             peak = peak.max(speed);
             if is_least && speed <= REST * peak {
