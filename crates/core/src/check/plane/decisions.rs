@@ -180,9 +180,10 @@ impl<'a> PlaneJudge<'a> {
         state
     }
 
-    /// Where the speed is least next to a point, and that speed: the zero of `w·ẇ`, with `ẇ = p − f u` of one mass. A least square
-    /// is found to half the digits, which in a pass through rest are all that the speed has.
-    fn turn_of_speed(&self, step: &Step, point: usize) -> Option<(f64, f64)> {
+    /// Where the speed is least between two points, of which one may be nearest, and that speed: the zero of `w·ẇ`, with
+    /// `ẇ = p − f u` of one mass. A least square is found to half the digits, which in a pass through rest are all that
+    /// the speed has.
+    fn turn_of_speed(&self, step: &Step, ends: [usize; 2], nearest: usize) -> Option<(f64, f64)> {
         let gain = |part: f64| {
             let state = self.inside(step, part);
             let loads = between(&step.stretch.loads, part);
@@ -194,13 +195,12 @@ impl<'a> PlaneJudge<'a> {
             (dot(w, body.moved(push)) - if r > 0.0 { slowing } else { 0.0 }, r)
         };
         let points = &self.axes.stepper.rule.points;
-        let mut low = points[point.saturating_sub(1)];
-        let mut high = points[(point + 1).min(POINTS - 1)];
+        let [mut low, mut high] = ends.map(|end| points[end]);
         let ((mut falls, _), (mut rises, _)) = (gain(low), gain(high));
         if !(falls < 0.0 && rises > 0.0) {
             return None;
         }
-        let mut least = (points[point], norm(step.speed(point)));
+        let mut least = (points[nearest], norm(step.speed(nearest)));
         // By chords, and by halves where these do not halve it.
         for pass in 0..200 {
             let chord = low + (high - low) * (falls / (falls - rises));
@@ -230,8 +230,10 @@ impl<'a> PlaneJudge<'a> {
             step.at_point(point, &mut state);
             *speed = norm(state.speed());
         }
+        let last = POINTS - 1;
         let least_near = |point: usize| {
-            self.turn_of_speed(step, point).unwrap_or_else(|| {
+            let beside = [point.saturating_sub(1), (point + 1).min(last)];
+            self.turn_of_speed(step, beside, point).unwrap_or_else(|| {
                 // The square has no corner where the speed passes 0.
                 let square = speeds[point] * speeds[point];
                 let (t, square) = rule.least_of((point, square), |t| {
@@ -241,7 +243,20 @@ impl<'a> PlaneJudge<'a> {
                 (t, square.sqrt())
             })
         };
-        let last = POINTS - 1;
+        // A minimum beside a maximum, both between two points, shows in the slope at one of these alone.
+        let least_between = |point: usize| {
+            if point == 0 || point == last {
+                return None;
+            }
+            let [before, at, after] = [point - 1, point, point + 1].map(|i| speeds[i]);
+            let (rises, falls) = (before < at && at < after, before > at && at > after);
+            let ends = match self.gains(step, point) {
+                gain if rises && gain < 0.0 => [point, point + 1],
+                gain if falls && gain > 0.0 => [point - 1, point],
+                _ => return None,
+            };
+            self.turn_of_speed(step, ends, point)
+        };
         let mut points = Vec::with_capacity(POINTS + 1);
         for (point, at) in rule.points.into_iter().zip(speeds).enumerate() {
             let is_below = |other: usize| speeds[point] < speeds[other];
@@ -251,9 +266,8 @@ impl<'a> PlaneJudge<'a> {
                 _ => is_below(point - 1) && is_below(point + 1),
             };
             points.push(at);
-            if is_least {
-                let found = least_near(point);
-                // Its place is that of the point, beside it at an end.
+            let found = if is_least { Some(least_near(point)) } else { least_between(point) };
+            if let Some(found) = found {
                 points.insert(points.len() - usize::from(found.0 < at.0), found);
             }
         }
