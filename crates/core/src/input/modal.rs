@@ -9,6 +9,7 @@ use core::fmt::Write as _;
 
 use super::tree::{Sources, Spot};
 use crate::error::InputError;
+use crate::model::ROUNDED_MASS;
 
 mod cells;
 mod csi;
@@ -100,11 +101,12 @@ pub fn read_modes(
 }
 
 impl ModalTable {
-    /// Divides what the modes have of the mass by its sum, where that exceeds all of it by the rounding of printed
-    /// digits; notes it.
+    /// Divides what the modes have of the mass by its sum, where that exceeds all of it by more than a model takes,
+    /// which is the rounding of printed digits; notes it.
     fn fit_to_mass(&mut self) {
         for (axis, name) in ["x", "y"].into_iter().enumerate() {
-            let Some(sum) = self.sum(axis, None).filter(|sum| *sum > 1.0) else { continue };
+            let sum = self.sum(axis, None).filter(|sum| *sum > 1.0 + ROUNDED_MASS);
+            let Some(sum) = sum else { continue };
             for mode in &mut self.modes {
                 mode.shares[axis] = mode.shares[axis].map(|share| match share {
                     Share::Participation(l) => Share::Participation(l / sum.sqrt()),
