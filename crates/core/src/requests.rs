@@ -504,6 +504,7 @@ fn limit(what: &str, text: &str, demand: &str) -> Result<f64, AssessmentError> {
     };
     if value.is_finite() && value > 0.0 { Ok(value) } else { Err(refused("a limit > 0")) }
 }
+
 /// Keys of slider, block and structure that move what is built of them, each by itself: numbers other than 0, and no
 /// names, sizes for ratios, or bounds.
 fn moving(analysis: &Analysis) -> Vec<&str> {

@@ -70,10 +70,14 @@ def test_a_pair_is_derived_too() -> None:
     assert found.table["derivative"][0] < 0.0
 
 
+def test_all_numbers_of_the_model_are_derived_where_no_path_is_named() -> None:
+    found = ss.sensitivity(block(), pulse(), demand="peak_sliding_displacement_m")
+    assert {"block.mass", "slider.kinetic_friction"} <= set(found.table["path"])
+
+
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
-        ({"paths": []}, "^paths: expected keys, such as slider.kinetic_friction, found nothing"),
         ({"paths": "slider.radius"}, "^paths: expected keys that stand in the model as one number"),
         ({"paths": "slider.raduis"}, 'nearest is "slider.radius"'),
         ({"paths": "block.mass", "demand": "slip_count"}, "^demand: expected a demand that is a number"),

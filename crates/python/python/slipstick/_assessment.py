@@ -310,7 +310,7 @@ class Sensitivity(Assessment):
 def sensitivity(
     model: _core.Model,
     motions: _core.Motion | Records | None,
-    paths: str | Sequence[str],
+    paths: str | Sequence[str] = (),
     *,
     measure: str | None = None,
     scale_to: str | None = None,
@@ -333,7 +333,8 @@ def sensitivity(
     motions
         A motion, or several by name, in one direction or in two; None for the model's own.
     paths
-        Keys that stand in the model as one number, ``["slider.kinetic_friction", "storey.1.mass"]``.
+        Keys that stand in the model as one number, ``["slider.kinetic_friction", "storey.1.mass"]``; all of slider,
+        block and structure if left out.
     measure, scale_to, scale
         As in ``spectrum``.
     demand
