@@ -28,7 +28,7 @@ DT, DURATION = 0.01, 6.0
 # Time step in s, and stiffness of the section in kN/m.
 STEPS = [(1e-3, 1e7), (5e-4, 1e8), (2.5e-4, 3e8), (1.25e-4, 1e9)]
 COUNTS = [2, 3, 4, 6, 8, 10, 12]
-FIGURES = ["peak \|s\|", "peak s_x", "peak s_y", "roof over the slab"]
+FIGURES = ["peak resultant of s", "peak s_x", "peak s_y", "roof over the slab"]
 
 
 def ground():
@@ -194,7 +194,7 @@ def page(peers, all_modes, fewer, taken, frames):
         "",
         f"| | {heads} | time |",
         "|---|--:|--:|--:|--:|--:|",
-        f"| Slipstick, 12 modes, mm | {mm} | {1e3 * taken:.2g} ms, process and certificate included |",
+        f"| Slipstick, 12 modes, mm | {mm} | {taken:.2g} s, process and certificate included |",
     ]
     for (dt, stiffness), (seconds, peaks) in peers.items():
         errors = per_cent(peaks / figures(all_modes) - 1.0)
@@ -210,7 +210,7 @@ def page(peers, all_modes, fewer, taken, frames):
         "|---|--:|--:|--:|--:|",
     ]
     for storeys, (as_storeys, as_modes, apart) in frames.items():
-        lines.append(f"| {storeys} storeys | {1e6 * as_storeys:.0f} | {1e6 * as_modes:.0f} "
+        lines.append(f"| n = {storeys} | {1e6 * as_storeys:.0f} | {1e6 * as_modes:.0f} "
                      f"| {as_modes / as_storeys:.2f} | {apart:.0e} |")
     return "\n".join(lines) + "\n"
 
