@@ -85,16 +85,20 @@ def convert(slipstick, ops, modes):
          "--mass-unit", "t", "--damping", "0", *points, "-o", "modes.csv"],
         check=True, stdout=subprocess.DEVNULL,
     )
-    return Path("modes.csv").read_text().splitlines(keepends=True), mass
+    lines = Path("modes.csv").read_text().splitlines(keepends=True)
+    return [line for line in lines if not line.startswith("#")], mass
+
+
+def write_ground():
+    """The motions as the records x.csv and y.csv."""
+    for axis, values in zip("xy", ground()):
+        rows = (f"{i * DT!r},{value!r}\n" for i, value in enumerate(values.tolist()))
+        Path(f"{axis}.csv").write_text("time_s,acceleration_m_per_s2\n" + "".join(rows))
 
 
 def exact(slipstick, table, mass, count):
     """The summary of a run with the first modes of the table."""
-    lines = [line for line in table if not line.startswith("#")]
-    Path("some.csv").write_text("".join(lines[: count + 1]))
-    for axis, values in zip("xy", ground()):
-        rows = (f"{i * DT!r},{value!r}\n" for i, value in enumerate(values.tolist()))
-        Path(f"{axis}.csv").write_text("time_s,acceleration_m_per_s2\n" + "".join(rows))
+    Path("some.csv").write_text("".join(table[: count + 1]))
     points = "".join(f'[[structure.point]]\nname = "floor{i}"\nheight = "{3.2 * i:.1f} m"\n'
                      for i in range(1, len(FLOORS) + 1))
     Path("model.toml").write_text(
@@ -108,7 +112,7 @@ def exact(slipstick, table, mass, count):
 
 def shares(table, mass, count):
     """Shares of the mass along x and y of the first modes."""
-    rows = [line.split(",") for line in table if not line.startswith("#")]
+    rows = [line.split(",") for line in table]
     columns = [rows[0].index(f"participation_{axis}") for axis in "xy"]
     return [sum(float(row[column]) ** 2 for row in rows[1 : count + 1]) / (1e3 * mass) for column in columns]
 
@@ -226,6 +230,7 @@ def main():
     os.chdir(options.folder)
     ops = opensees.load()
     modes = runpy.run_path(str(ROOT / "examples/structures/opensees-frame.py"))
+    write_ground()
     table, mass = convert(slipstick, ops, modes)
     note("Slipstick, all modes")
     all_modes = exact(slipstick, table, mass, COUNTS[-1])
