@@ -451,6 +451,17 @@ fn prop_random_systems_are_certified() {
     assert!(wrong.is_empty(), "{} of {count}:\n{}", wrong.len(), wrong.join("\n"));
 }
 
+/// Slips of some 20 µs, at whose stop the rounding of a time is all that is left of the speed.
+#[test]
+fn a_slip_of_microseconds_has_the_direction_of_its_push() {
+    for seed in [1211, 7797] {
+        let system = System::random(seed, false);
+        let (model, motion, response) = (system.model(), system.motion(), system.response());
+        let certificate = check(&model, &motion, &response);
+        assert!(certificate.holds(), "seed {seed}: {certificate:?}");
+    }
+}
+
 /// A release from friction that is no less in a slip begins with no acceleration.
 #[test]
 fn prop_systems_of_one_coefficient_are_certified() {

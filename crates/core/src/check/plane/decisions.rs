@@ -3,7 +3,7 @@
 use super::super::collocation::POINTS;
 use super::super::ground::nearest;
 use super::super::structure::larger;
-use super::frame::{Pair, between, dot, norm, times, unit};
+use super::frame::{Loads, Pair, between, dot, norm, times, unit};
 use super::judge::{Minima, PlaneJudge, REST, Turn};
 use super::step::{FINE, State, Step, Stretch, sine};
 use crate::response::Mode;
@@ -38,7 +38,7 @@ impl<'a> PlaneJudge<'a> {
     }
 
     /// Whether a block at rest is held though friction would not have stopped it: `f < |p| ≤ μ_s N/M1`.
-    pub(super) fn holds_only(&self, state: &State, loads: &super::frame::Loads) -> bool {
+    pub(super) fn holds_only(&self, state: &State, loads: &Loads) -> bool {
         let (frame, push) = (self.frame(), norm(self.push(state, loads)));
         frame.slowing(loads, 0.0) < push && push <= frame.holding(loads)
     }
@@ -64,7 +64,7 @@ impl<'a> PlaneJudge<'a> {
 
     /// Judges the way to a stop at a knot: whether the block has slowed down so far, and what friction has
     /// done in all directions between that of sliding and that of the push.
-    fn comes_to_rest(&mut self, k: usize, loads: &super::frame::Loads) {
+    fn comes_to_rest(&mut self, k: usize, loads: &Loads) {
         let state = self.state(k);
         let acting = self.acting(&state, loads);
         let (frame, tracked, push) = (self.frame(), self.tracked(), acting.forces.push);

@@ -233,6 +233,11 @@ impl<'a> PlaneFrame<'a> {
         f
     }
 
+    /// A speed that the rounding of a time takes or gives.
+    pub(super) fn rounded(&self, time_s: f64, loads: &Loads, push: Pair) -> f64 {
+        2.0 * f64::EPSILON * time_s * (norm(push) + self.slowing(loads, 0.0))
+    }
+
     /// Whether there is no friction at any speed.
     pub(super) fn is_free(&self, loads: &Loads) -> bool {
         [0.0, 1.0].iter().all(|speed| self.slowing(loads, *speed) == 0.0)

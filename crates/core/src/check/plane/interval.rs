@@ -178,7 +178,11 @@ impl<'a> PlaneJudge<'a> {
                 Reach::Free => left_s,
                 Reach::Within(reach_s) => reach_s,
                 Reach::Rest(rest_s) => {
-                    self.axes.heading = unit(way.state.speed());
+                    let (w, push) = (way.state.speed(), self.push(&way.state, &loads));
+                    let heading = unit(w).filter(|_| {
+                        norm(w) > self.frame().rounded(stretch.from_s + t, &loads, push)
+                    });
+                    self.axes.heading = heading.or(self.axes.heading);
                     way.rested_s = Some(left_s - rest_s);
                     way.state.lose_speed(self.frame());
                     return self.rest(way, &stretch.part(t, left_s));
