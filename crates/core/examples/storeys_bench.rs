@@ -3,7 +3,10 @@
 //! Prints a line a system, fields by tabs: name, number of storeys, samples, events, peak sliding
 //! displacement in m, then nanoseconds a run of the demands alone, of the history and of the history
 //! with its certificate, each the least of several runs of a prepared model, and of the preparation.
-//! With a system's name, `demands`, `history`, `certificate` or `set-up`, and a count it runs that so
+//! With `pairs` and a folder of records it prints, for 0, 1 and 3 storeys under each pair of components of
+//! an earthquake there (files beside each other by name): number of storeys, name of the first file, samples,
+//! events, peak sliding displacement in m, nanoseconds of the demands in two directions, and of the demands
+//! along x alone. With a system's name, `demands`, `history`, `certificate` or `set-up`, and a count it runs that so
 //! many times, for a profiler.
 
 #![allow(
@@ -16,11 +19,13 @@ use slipstick::check::check;
 use slipstick::error::SolveError;
 use slipstick::model::{Block, Contents, Damping, Frame, InitialState, Model, Slider, Stop};
 use slipstick::motion::GroundMotion;
+use slipstick::record::{self, Options, Units};
 use slipstick::slider::{Friction, RateCurve, RateLaw, Surface, SurfacesInSeries};
 use slipstick::solver::{Prepared, PreparedMotion, Workspace};
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 use std::error::Error;
 use std::hint::black_box;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// Mass of the block and of each floor.
@@ -30,8 +35,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let profiled = match arguments.as_slice() {
         [] => None,
+        [pairs, folder] if pairs == "pairs" => return of_pairs(Path::new(folder)),
         [name, what, count] => Some((name.as_str(), what.as_str(), count.parse::<u32>()?)),
-        _ => return Err("expected no argument or a name, what to run and a count".into()),
+        _ => {
+            return Err(
+                "expected no argument, pairs and a folder, or a name, what to run and a count"
+                    .into(),
+            );
+        }
     };
     let [level, vertical] = taft()?;
     let [level, vertical] = [level, vertical].map(PreparedMotion::new);
@@ -125,6 +136,45 @@ fn least(mut run: impl FnMut() -> Result<(), SolveError>) -> Result<Duration, So
     Ok(least)
 }
 
+/// Pairs of a folder, on a pendulum of 2.2 m with friction 0.06.
+fn of_pairs(folder: &Path) -> Result<(), Box<dyn Error>> {
+    let entries: Result<Vec<_>, _> = std::fs::read_dir(folder)?.collect();
+    let mut files: Vec<PathBuf> = entries?.iter().map(std::fs::DirEntry::path).collect();
+    files.sort();
+    for n in [0, 1, 3] {
+        let model = model_on(2.2, (n, 0.5), [0.06; 2])?;
+        for pair in files.chunks_exact(2) {
+            let along_x = motion(&pair[0])?;
+            let (both, _) = along_x.with_along_y(&motion(&pair[1])?)?;
+            let mut room = Workspace::default();
+            let [along_x, both] = [along_x, both].map(PreparedMotion::new);
+            let mut time = |motion: &PreparedMotion| -> Result<Duration, SolveError> {
+                let prepared = Prepared::new(model.clone(), motion.dt_s());
+                least(|| prepared.demands_in(&mut room, motion).map(|one| drop(black_box(one))))
+            };
+            let times = [time(&both)?, time(&along_x)?].map(|time| time.as_nanos());
+            let response = Prepared::new(model.clone(), both.dt_s()).demands(&both)?;
+            let name = pair[0].file_stem().unwrap_or_default().to_string_lossy();
+            let (samples, events) = (both.motion().len(), response.events.len());
+            let peak_m = response.demands.peak_sliding_displacement_m;
+            println!("{n}\t{name}\t{samples}\t{events}\t{peak_m:e}\t{}\t{}", times[0], times[1]);
+        }
+    }
+    Ok(())
+}
+
+/// The motion of a file of one component.
+fn motion(file: &Path) -> Result<GroundMotion, Box<dyn Error>> {
+    let name = file.display().to_string();
+    // Those that are a table state no units; they are in g.
+    let is_table = file.extension().is_some_and(|extension| extension == "txt");
+    let units = Units::parse("g").filter(|_| is_table);
+    let record =
+        record::read(&name, &std::fs::read(file)?, &Options { units, ..Options::default() })?;
+    let channel = record.channels.first().ok_or("expected a channel")?;
+    Ok(channel.motion().ok_or("expected an acceleration")??)
+}
+
 /// The Taft record at 0.3 g, without and with two thirds of it upwards, reversed in time.
 fn taft() -> Result<[GroundMotion; 2], Box<dyn Error>> {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/records/taft-111.txt");
@@ -186,9 +236,18 @@ fn with_devices() -> Result<Vec<(&'static str, Model)>, Box<dyn Error>> {
 }
 
 /// A shear frame of equal floors and storeys with a first period, on a pendulum slider of 2 m.
-fn model(n: usize, period_s: f64, [mu_s, mu_k]: [f64; 2]) -> Result<Model, Box<dyn Error>> {
+fn model(n: usize, period_s: f64, friction: [f64; 2]) -> Result<Model, Box<dyn Error>> {
+    model_on(2.0, (n, period_s), friction)
+}
+
+/// The same on a pendulum of a radius.
+fn model_on(
+    radius_m: f64,
+    (n, period_s): (usize, f64),
+    [mu_s, mu_k]: [f64; 2],
+) -> Result<Model, Box<dyn Error>> {
     let total_kg = MASS_KG * (n + 1) as f64;
-    let spring = total_kg * STANDARD_GRAVITY_M_PER_S2 / 2.0;
+    let spring = total_kg * STANDARD_GRAVITY_M_PER_S2 / radius_m;
     let slider = Slider::sprung(Friction::new(mu_s, mu_k)?, spring);
     let frame = if n == 0 {
         Frame::none()

@@ -87,6 +87,17 @@ pub fn curvature_bound(c: &Polynomial) -> f64 {
     weighted_sum(c, &FACTORS[1])
 }
 
+/// `x²` times the bound on the second derivative over [0, `x`]: `Σ k (k − 1) |c_k| x^k`.
+#[inline(always)]
+#[must_use]
+pub fn curvature_term(c: &Polynomial, x: f64) -> f64 {
+    let mut terms = ZERO;
+    for k in 0..COEFFICIENTS {
+        terms[k] = FACTORS[1][k] * c[k].abs();
+    }
+    value(&terms, x)
+}
+
 /// Bound on the size over [0, 1]: `Σ |c_k|`.
 #[inline(always)]
 #[must_use]

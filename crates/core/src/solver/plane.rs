@@ -28,6 +28,7 @@ use self::system::{Loads, State, inner, norm};
 use self::terms::Scales;
 use super::course::{self, Course};
 use super::ground::{Ground, Stretch};
+use super::instructions::InstructionSet;
 use super::phase::{Phase, Reached};
 use super::slider::leading;
 use super::walk::Walk;
@@ -35,7 +36,6 @@ use crate::error::SolveError;
 use crate::response::{EventInPlane, EventKind, Mode};
 use crate::slider::Direction;
 
-pub(super) use self::series::Accuracy;
 pub(super) use self::straight::{along, only_axis, placed, solve};
 pub(super) use self::system::System;
 
@@ -72,7 +72,7 @@ impl<'a> Plane<'a> {
     fn new(
         (system, state): (System, State),
         (ground, table_y): (Ground<'a>, &'a [f64]),
-        accuracy: Accuracy,
+        instructions: InstructionSet,
         with_history: bool,
     ) -> Self {
         let speed = norm(state.w);
@@ -86,7 +86,7 @@ impl<'a> Plane<'a> {
             starts: false,
             is_released: false,
             peak_speed: speed,
-            series: Series::new(&system, accuracy),
+            series: Series::new(&system, instructions),
             scales,
             peaks: Peaks::new(&system, state.s),
             least: Least::default(),

@@ -291,7 +291,7 @@ fn solve_in_plane(
         sampling,
     };
     let how = (with_history, Pulse::new(go_on));
-    plane::solve((model, system), (ground, y), plane::Accuracy::USUAL, how)
+    plane::solve((model, system), (ground, y), instructions, how)
 }
 
 fn solve_along_x(

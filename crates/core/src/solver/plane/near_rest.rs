@@ -57,11 +57,10 @@ impl Series {
         sums: &mut [f64],
     ) {
         self.begin(Kind::NearRest, state, loads, unit);
-        let order = self.accuracy.order;
         let z = root(state.w);
         (self.root[0][0], self.root[1][0]) = (z[0], z[1]);
         let mut push = [[0.0; DEGREE + 4]; 2];
-        for k in 0..=order {
+        for k in 0..=DEGREE {
             let per = unit / (k + 1) as f64;
             self.restore(system, k);
             let [a, b] = &self.root;
@@ -77,7 +76,7 @@ impl Series {
                 let [table, rate] = loads.table[axis];
                 push[axis][k] = pull - (rate * time + if k == 0 { table } else { 0.0 });
             }
-            if k == order {
+            if k == DEGREE {
                 break;
             }
             // p z̄ − f z, and f w
@@ -94,7 +93,7 @@ impl Series {
             self.time[k + 1] = per * self.speed[k];
             self.integrate_modes(system, k, (per, block), sums);
         }
-        self.degree = order;
+        self.degree = DEGREE;
         self.part = self.fitting_part(scales).min(1.0);
     }
 

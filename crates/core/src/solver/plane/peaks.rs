@@ -8,7 +8,9 @@ use super::mass::times;
 use super::series::{Kind, Series, square};
 use super::stop::Arc;
 use super::system::{State, System, inner, norm};
-use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, curvature_bound, largest, value};
+use crate::linear::polynomial::{
+    DEGREE, Polynomial, ZERO, curvature_bound, curvature_term, largest, value,
+};
 use crate::numerics::algebra::dot;
 
 /// A relative difference of peaks that is rounding.
@@ -46,9 +48,20 @@ impl Peak {
     /// Whether values between two, which depart from their chord by so much, are below what is attained.
     #[inline(always)]
     fn is_above(&self, [a, b]: [[f64; 2]; 2], bend: [f64; 2]) -> bool {
-        let above = |bound: f64, attained: f64| bound <= attained + ROUNDING * self.norm;
-        above(norm(a).max(norm(b)) + norm(bend), self.norm)
-            && (0..2).all(|k| above(a[k].abs().max(b[k].abs()) + bend[k], self.axes[k]))
+        self.holds(norm(a).max(norm(b)) + norm(bend), self.norm)
+            && self.is_above_by_axis([a, b], bend)
+    }
+
+    /// The same of the components alone.
+    #[inline(always)]
+    fn is_above_by_axis(&self, [a, b]: [[f64; 2]; 2], bend: [f64; 2]) -> bool {
+        (0..2).all(|k| self.holds(a[k].abs().max(b[k].abs()) + bend[k], self.axes[k]))
+    }
+
+    /// Whether a bound is not above what is attained, but for rounding.
+    #[inline(always)]
+    fn holds(&self, bound: f64, attained: f64) -> bool {
+        bound <= attained + ROUNDING * self.norm
     }
 
     /// Looks for peaks of a series over `[0, to]`; where its length is largest, if that is new.
@@ -182,18 +195,67 @@ pub(super) struct Peaks {
     pub(super) smallest: [f64; 2],
 }
 
-/// What a vector output is made of: `A − c φ`, with `φ = f u`, in stick `p`.
+/// What a vector output is made of: `a P + b L g − c φ`, with `φ = f u`, in stick `p`.
 struct Composed {
-    steady: [Polynomial; 2],
+    of_pull: f64,
+    of_shear: f64,
     of_friction: f64,
 }
 
 impl Composed {
+    /// Without friction.
+    fn steady(&self, axis: usize, series: &Series) -> Polynomial {
+        let (pull, shear) = (&series.pull[axis], &series.shear[axis]);
+        core::array::from_fn(|k| self.of_pull * pull[k] + self.of_shear * shear[k])
+    }
+
     /// Along an axis, away from rest.
     fn along(&self, axis: usize, series: &Series) -> Polynomial {
-        let (a, friction) = (&self.steady[axis], &series.friction[axis]);
-        core::array::from_fn(|i| a[i] - self.of_friction * friction[i])
+        let (steady, friction) = (self.steady(axis, series), &series.friction[axis]);
+        core::array::from_fn(|k| steady[k] - self.of_friction * friction[k])
     }
+
+    /// Its values at both ends, and how far its components depart from their chords at most.
+    fn between(&self, chords: &[[Chord; 2]; 3]) -> ([[f64; 2]; 2], [f64; 2]) {
+        let factors = [self.of_pull, self.of_shear, -self.of_friction];
+        let (mut ends, mut bends) = ([[0.0; 2]; 2], [0.0; 2]);
+        for (factor, chords) in factors.into_iter().zip(chords) {
+            for (axis, chord) in chords.iter().enumerate() {
+                bends[axis] += factor.abs() * chord.bend;
+                (0..2).for_each(|end| ends[end][axis] += factor * chord.ends[end]);
+            }
+        }
+        (ends, bends)
+    }
+}
+
+/// A polynomial over `[0, to]`: its values at the ends, and how far it departs from the chord between them at most.
+#[derive(Clone, Copy)]
+struct Chord {
+    ends: [f64; 2],
+    bend: f64,
+}
+
+impl Chord {
+    fn of(c: &Polynomial, to: f64) -> Self {
+        Self { ends: [c[0], value(c, to)], bend: bend(c, to) }
+    }
+}
+
+/// What of a series is looked at.
+struct Look<'a> {
+    series: &'a Series,
+    to: f64,
+    near: Option<&'a NearRest>,
+    /// Of `P`, `L g` and `φ`.
+    chords: &'a [[Chord; 2]; 3],
+}
+
+/// The moment of an axis by its own polynomial, `A − c φ`.
+struct Moment {
+    axis: usize,
+    steady: Polynomial,
+    of_friction: f64,
 }
 
 /// `φ = f u` near rest, where it is no series: bounds of its size and of its first two derivatives.
@@ -204,14 +266,7 @@ struct NearRest {
 /// An eighth of the bound on the second derivative over a part.
 #[inline(always)]
 pub(super) fn bend(c: &Polynomial, to: f64) -> f64 {
-    if to == 1.0 {
-        return 0.125 * curvature_bound(c);
-    }
-    let mut bound = 0.0;
-    for k in (2..=DEGREE).rev() {
-        bound = bound * to + (k * (k - 1)) as f64 * c[k].abs();
-    }
-    0.125 * bound * (to * to)
+    0.125 * if to == 1.0 { curvature_bound(c) } else { curvature_term(c, to) }
 }
 
 /// `Σ k |c_k| x^(k−1)` and `Σ |c_k| x^k`.
@@ -364,18 +419,21 @@ impl Peaks {
         to: f64,
     ) -> Option<[Polynomial; 2]> {
         let near = (series.kind == Kind::NearRest).then(|| near_rest(series, to));
-        let pull = &series.pull;
-        let block = Composed { steady: *pull, of_friction: 1.0 };
-        let friction = Composed { steady: [ZERO; 2], of_friction: system.block_kg };
-        let slider = Composed {
-            steady: [0, 1].map(|k| slider_part(system, pull, &series.shear, k)),
-            of_friction: system.block_kg,
-        };
-        self.look_at_friction(system, &friction, series, near.as_ref(), to);
-        self.look_at_composed(Output::SliderForce, &slider, series, near.as_ref(), to);
+        let chords = [&series.pull, &series.shear, &series.friction]
+            .map(|of| [Chord::of(&of[0], to), Chord::of(&of[1], to)]);
+        let kg = system.block_kg;
+        let block = Composed { of_pull: 1.0, of_shear: 0.0, of_friction: 1.0 };
+        let friction = Composed { of_pull: 0.0, of_shear: 0.0, of_friction: kg };
+        let slider = Composed { of_pull: kg, of_shear: -1.0, of_friction: kg };
+        // The size of constant friction is linear in the time: its ends are its peaks.
+        let by_axis = system.kinetic_per_kg.is_constant()
+            && matches!(series.kind, Kind::Slip | Kind::Start | Kind::Turning);
+        let look = Look { series, to, near: near.as_ref(), chords: &chords };
+        self.look_at_composed(Output::FrictionForce, &friction, &look, by_axis);
+        self.look_at_composed(Output::SliderForce, &slider, &look, false);
         if let Some(mass) = &system.mass {
             // b = C (P − φ)
-            let force = |axis: usize, k: usize| pull[axis][k] - series.friction[axis][k];
+            let force = |axis: usize, k: usize| series.pull[axis][k] - series.friction[axis][k];
             let mut block = [ZERO; 2];
             for k in 0..=series.degree {
                 let b = times(&mass.inverse, [force(0, k), force(1, k)]);
@@ -385,85 +443,57 @@ impl Peaks {
             for axis in 0..2 {
                 let Some((arm, along)) = &system.overturning[axis] else { continue };
                 let modes = combined(arm, &series.g, series.degree);
-                let mut steady = [ZERO; 2];
-                steady[axis] =
+                let steady =
                     core::array::from_fn(|k| inner(*along, [block[0][k], block[1][k]]) - modes[k]);
-                let moment = Composed { steady, of_friction: 0.0 };
-                self.look_at_moment(axis, &moment, series, None, to);
+                self.look_at_moment(&Moment { axis, steady, of_friction: 0.0 }, &look);
             }
             return Some(block);
         }
-        self.look_at_composed(Output::Block, &block, series, near.as_ref(), to);
+        self.look_at_composed(Output::Block, &block, &look, false);
         for axis in 0..2 {
             let Some((arm, along)) = &system.overturning[axis] else { continue };
-            let block = &along[axis];
-            // The moment of floors and block: −arm·g + block·b; the other axis is nothing.
-            let modes = combined(arm, &series.g, series.degree);
-            let mut steady = [ZERO; 2];
-            steady[axis] = core::array::from_fn(|k| block * pull[axis][k] - modes[k]);
-            let moment = Composed { steady, of_friction: *block };
-            self.look_at_moment(axis, &moment, series, near.as_ref(), to);
+            // The moment of floors and block: −arm·g + block·b.
+            let (modes, block) = (combined(arm, &series.g, series.degree), along[axis]);
+            let steady = core::array::from_fn(|k| block * series.pull[axis][k] - modes[k]);
+            self.look_at_moment(&Moment { axis, steady, of_friction: block }, &look);
         }
         None
     }
 
-    fn look_at_composed(
-        &mut self,
-        output: Output,
-        composed: &Composed,
-        series: &Series,
-        near: Option<&NearRest>,
-        to: f64,
-    ) {
-        match near {
-            None => {
-                let of = [0, 1].map(|axis| composed.along(axis, series));
-                self.look_at(output, &of, to);
-            }
-            Some(near) => {
-                let peak = &mut self.all[output.place(self.points)];
-                near.look(peak, composed, series, to);
-            }
+    /// `by_axis` where the length has its peaks at the ends.
+    fn look_at_composed(&mut self, output: Output, of: &Composed, look: &Look<'_>, by_axis: bool) {
+        let &Look { series, to, near, chords } = look;
+        let peak = &mut self.all[output.place(self.points)];
+        if let Some(near) = near {
+            let steady = [of.steady(0, series), of.steady(1, series)];
+            return near.look(peak, (&steady, of.of_friction), series, to);
         }
-    }
-
-    /// Where the size of constant friction is linear in the time its ends are its peaks.
-    fn look_at_friction(
-        &mut self,
-        system: &System,
-        friction: &Composed,
-        series: &Series,
-        near: Option<&NearRest>,
-        to: f64,
-    ) {
-        let is_constant = system.kinetic_per_kg.is_constant();
-        if is_constant && matches!(series.kind, Kind::Slip | Kind::Start | Kind::Turning) {
-            let f: [Polynomial; 2] = series.friction.map(|f| scaled(&f, system.block_kg));
-            self.all[Output::FrictionForce.place(self.points)].look_at_axes(&f, to);
-        } else {
-            self.look_at_composed(Output::FrictionForce, friction, series, near, to);
+        let (ends, bends) = of.between(chords);
+        peak.note_ends(ends, to);
+        if by_axis {
+            if !peak.is_above_by_axis(ends, bends) {
+                peak.look_at_axes(&[of.along(0, series), of.along(1, series)], to);
+            }
+        } else if !peak.is_above(ends, bends) {
+            peak.look(&[of.along(0, series), of.along(1, series)], to);
         }
     }
 
     /// The moment of an axis, which the friction across it is no part of.
-    fn look_at_moment(
-        &mut self,
-        axis: usize,
-        moment: &Composed,
-        series: &Series,
-        near: Option<&NearRest>,
-        to: f64,
-    ) {
+    fn look_at_moment(&mut self, of: &Moment, look: &Look<'_>) {
+        let &Look { series, to, near, .. } = look;
+        let (axis, mut along) = (of.axis, [ZERO; 2]);
         let all = &mut self.all[Output::Moment.place(self.points)];
         match near {
             None => {
-                let mut of = [ZERO; 2];
-                of[axis] = moment.along(axis, series);
-                all.look_at_axes(&of, to);
+                let friction = &series.friction[axis];
+                along[axis] = core::array::from_fn(|k| of.steady[k] - of.of_friction * friction[k]);
+                all.look_at_axes(&along, to);
             }
             Some(near) => {
                 let mut peak = *all;
-                near.look_at_axes(&mut peak, moment, series, to);
+                along[axis] = of.steady;
+                near.look_at_axes(&mut peak, (&along, of.of_friction), series, to);
                 all.axes[axis] = peak.axes[axis];
                 all.norm = all.norm.max(peak.axes[axis]);
             }
@@ -547,16 +577,6 @@ impl Peaks {
     }
 }
 
-/// `M1 P − L g`.
-fn slider_part(
-    system: &System,
-    pull: &[Polynomial; 2],
-    shear: &[Polynomial; 2],
-    axis: usize,
-) -> Polynomial {
-    core::array::from_fn(|k| system.block_kg * pull[axis][k] - shear[axis][k])
-}
-
 /// A row of the modes as a series.
 fn combined(row: &[f64], list: &[f64], order: usize) -> Polynomial {
     let modes = row.len();
@@ -602,24 +622,24 @@ fn near_rest(series: &Series, to: f64) -> NearRest {
 }
 
 impl NearRest {
-    fn composed(composed: &Composed, series: &Series, x: f64) -> [f64; 2] {
+    /// `A − c φ` at a part.
+    fn vector((steady, c): (&[Polynomial; 2], f64), series: &Series, x: f64) -> [f64; 2] {
         let w = series.velocity_at(x);
-        let per_speed = composed.of_friction * value(&series.slowing, x) / norm(w);
-        [0, 1].map(|k| value(&composed.steady[k], x) - per_speed * w[k])
+        let per_speed = c * value(&series.slowing, x) / norm(w);
+        [0, 1].map(|k| value(&steady[k], x) - per_speed * w[k])
     }
 
     /// Looks for peaks of the components of `A − c φ`, and notes the ends: these.
     fn look_at_axes(
         &self,
         peak: &mut Peak,
-        composed: &Composed,
+        (a, c): (&[Polynomial; 2], f64),
         series: &Series,
         to: f64,
     ) -> [[f64; 2]; 2] {
-        let of = |x: f64| Self::composed(composed, series, x);
+        let of = |x: f64| Self::vector((a, c), series, x);
         let ends = [of(0.0), of(to)];
         peak.note_ends(ends, to);
-        let (a, c) = (&composed.steady, composed.of_friction);
         let [_, _, second] = self.sizes;
         for axis in 0..2 {
             let bend = bend(&a[axis], to) + 0.125 * c * second * (to * to);
@@ -632,10 +652,9 @@ impl NearRest {
 
     /// Looks for peaks of `V = A − c φ`; with `|φ| = f` that of `|V|² = |A|² − 2 c A·φ + c² f²` is flat where
     /// `A` is small.
-    fn look(&self, peak: &mut Peak, composed: &Composed, series: &Series, to: f64) {
-        let of = |x: f64| Self::composed(composed, series, x);
-        let ends = self.look_at_axes(peak, composed, series, to);
-        let (a, c) = (&composed.steady, composed.of_friction);
+    fn look(&self, peak: &mut Peak, (a, c): (&[Polynomial; 2], f64), series: &Series, to: f64) {
+        let of = |x: f64| Self::vector((a, c), series, x);
+        let ends = self.look_at_axes(peak, (a, c), series, to);
         let [size, first, second] = self.sizes;
         let [mut slopes, mut sizes, mut bends] = [[0.0; 2]; 3];
         for axis in 0..2 {

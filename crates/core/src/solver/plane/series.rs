@@ -1,8 +1,11 @@
 //! The motion by powers of the time: in stick, in slip, and in slip from rest.
 
+use fearless_simd::Simd;
+
 use super::system::{Loads, State, System, inner, norm};
 use super::terms::{LOW, NEGLIGIBLE, Scales, Sizes};
 use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, deflated, first_root, value};
+use crate::solver::instructions::{InstructionSet, Job};
 
 /// By what a motion is expanded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,23 +24,10 @@ pub(super) enum Kind {
     Turning,
 }
 
-/// How far a series is taken.
-#[derive(Clone, Copy, Debug)]
-pub(in crate::solver) struct Accuracy {
-    /// Degree, at most [`DEGREE`].
-    pub(in crate::solver) order: usize,
-    /// Part of the step that the last terms allow.
-    pub(in crate::solver) part: f64,
-}
-
-impl Accuracy {
-    pub(in crate::solver) const USUAL: Self = Self { order: DEGREE, part: 1.0 };
-}
-
 /// The motion from an instant on, by powers of a variable over its unit.
 pub(super) struct Series {
     pub(super) kind: Kind,
-    pub(super) accuracy: Accuracy,
+    instructions: InstructionSet,
     pub(super) modes: usize,
     pub(super) loads: Loads,
     /// Unit of the variable: in s, of `τ` in s²/m.
@@ -113,12 +103,12 @@ pub(super) struct Along {
 }
 
 impl Series {
-    pub(super) fn new(system: &System, accuracy: Accuracy) -> Self {
+    pub(super) fn new(system: &System, instructions: InstructionSet) -> Self {
         let list = || vec![0.0; system.modes() * (DEGREE + 1)];
         let pair = || [ZERO; 2];
         Self {
             kind: Kind::Stick,
-            accuracy,
+            instructions,
             modes: system.modes(),
             loads: Loads { table: [[0.0; 2]; 2], normal: [0.0; 2] },
             unit: 0.0,
@@ -180,18 +170,29 @@ impl Series {
     pub(super) fn expand(
         &mut self,
         system: &System,
+        of: (Kind, &State),
+        over: (Loads, f64),
+        scales: &Scales,
+    ) {
+        let instructions = self.instructions;
+        instructions.run(Expand { series: self, system, of, over, scales });
+    }
+
+    #[inline(always)]
+    fn expand_here(
+        &mut self,
+        system: &System,
         (kind, state): (Kind, &State),
         (loads, unit_s): (Loads, f64),
         scales: &Scales,
     ) {
         self.begin(kind, state, loads, unit_s);
         self.time[1] = unit_s;
-        let order = self.accuracy.order;
         let normal = [loads.normal[0], loads.normal[1] * unit_s];
         let mut along = Along::default();
-        self.degree = order;
+        self.degree = DEGREE;
         let mut sizes = Sizes::default();
-        for k in 0..=order {
+        for k in 0..=DEGREE {
             self.restore(system, k);
             for axis in 0..2 {
                 let s = &self.s[axis];
@@ -205,7 +206,7 @@ impl Series {
                 self.degree = k;
                 break;
             }
-            if k < order {
+            if k < DEGREE {
                 self.integrate(system, k);
             }
         }
@@ -380,7 +381,7 @@ impl Series {
     /// How much of the unit the last terms allow, perhaps above 1.
     pub(super) fn fitting_part(&self, scales: &Scales) -> f64 {
         let k = self.degree;
-        if k < self.accuracy.order && self.accuracy.part == 1.0 {
+        if k < DEGREE {
             return 1.0;
         }
         let sizes = Sizes::of(self, scales);
@@ -388,7 +389,7 @@ impl Series {
             let term = sizes.term(self, k);
             if term > NEGLIGIBLE { libm::pow(NEGLIGIBLE / term, 1.0 / k as f64) } else { 4.0 }
         };
-        self.accuracy.part * root(k - 1).min(root(k))
+        root(k - 1).min(root(k))
     }
 
     /// How far each mode's series of a list departs from its chord over a part of the unit at most.
@@ -432,6 +433,25 @@ impl Series {
             return [(a - b) * (a + b), 2.0 * a * b];
         }
         [value(&self.w[0], x), value(&self.w[1], x)]
+    }
+}
+
+/// An expansion, by the vector instructions of the machine.
+struct Expand<'a> {
+    series: &'a mut Series,
+    system: &'a System,
+    of: (Kind, &'a State),
+    over: (Loads, f64),
+    scales: &'a Scales,
+}
+
+impl Job for Expand<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, _: S) {
+        let Self { series, system, of, over, scales } = self;
+        series.expand_here(system, of, over, scales);
     }
 }
 

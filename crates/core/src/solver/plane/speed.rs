@@ -127,7 +127,7 @@ pub(super) fn path_m(series: &Series, to: f64) -> f64 {
         Kind::Stick => 0.0,
         Kind::Slip | Kind::Start => {
             let mut sum = 0.0;
-            for k in (0..=DEGREE).rev() {
+            for k in (0..=series.degree).rev() {
                 sum = sum * to + series.speed[k] / (k + 1) as f64;
             }
             series.unit * to * sum

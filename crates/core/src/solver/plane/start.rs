@@ -3,7 +3,7 @@
 use super::mass::{Mass, times};
 use super::series::{Along, Series, convolved};
 use super::system::{System, cross, inner, norm};
-use crate::linear::polynomial::Polynomial;
+use crate::linear::polynomial::{DEGREE, Polynomial};
 
 impl Series {
     /// `u` of a slip from rest, with `e₁ = p_0/|p_0|`, `u = c e₁ + s e₂`, `w = r u`:
@@ -103,7 +103,7 @@ impl Series {
             let of_speed = g1.map(|x| turns * x);
             let per = 1.0 / cross(of_speed, of_sine);
             (along.cosine[k], along.sine[k]) = (c_k, cross(of_speed, rest) * per);
-            if k < self.accuracy.order {
+            if k < DEGREE {
                 self.speed[k + 1] = cross(rest, of_sine) * per;
             }
         }

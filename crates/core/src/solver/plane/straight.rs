@@ -1,6 +1,5 @@
 //! An analysis in two horizontal directions: by the solver in one where nothing moves along the other.
 
-use super::series::Accuracy;
 use super::summary::{Part, demands};
 use super::system::{State, System, along_y, norm};
 use super::{Plane, SLIP};
@@ -14,6 +13,7 @@ use crate::response::{
 };
 use crate::solver::course::Course;
 use crate::solver::ground::{Ground, contact_loss_s};
+use crate::solver::instructions::InstructionSet;
 use crate::solver::slider::SliderState;
 use crate::solver::summary;
 use crate::solver::walk::Walk;
@@ -151,14 +151,14 @@ fn put_along_x(history: &mut History, x: HistoryAlongY) {
 pub(in crate::solver) fn solve(
     (model, system): (&Model, System),
     (ground, table_y): (Ground<'_>, &[f64]),
-    accuracy: Accuracy,
+    instructions: InstructionSet,
     (with_history, pulse): (bool, Pulse<'_>),
 ) -> Result<Response, SolveError> {
     let state = State::initial(&system, model);
     let law = model.law(false);
     let (s, speed) = (state.s[0], norm(state.w));
     let units = 64 * (1 + system.modes()) as u32;
-    let phase = Plane::new((system, state), (ground, table_y), accuracy, with_history);
+    let phase = Plane::new((system, state), (ground, table_y), instructions, with_history);
     let course =
         Course::new(SliderState::new(&law, s, speed), [s, speed], (Vec::new(), Vec::new()));
     let mut walk = Walk::new((phase, course), (ground, [0.0, model.normal_n()]), (pulse, units));

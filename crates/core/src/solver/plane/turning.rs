@@ -10,7 +10,7 @@
 use super::series::{Kind, Series, product};
 use super::system::{Loads, State, System, norm};
 use super::terms::Scales;
-use crate::linear::polynomial::ZERO;
+use crate::linear::polynomial::{DEGREE, ZERO};
 
 impl Series {
     /// Expands by powers of `τ`.
@@ -23,14 +23,13 @@ impl Series {
         sums: &mut [f64],
     ) {
         self.begin(Kind::Turning, state, loads, unit);
-        let order = self.accuracy.order;
         let speed = norm(state.w);
         self.speed[0] = speed;
         for axis in 0..2 {
             self.direction[axis][0] = state.w[axis] / speed;
         }
         let (mut rate, mut growth, mut block) = ([ZERO; 2], ZERO, [ZERO; 2]);
-        for k in 0..=order {
+        for k in 0..=DEGREE {
             let per = unit / (k + 1) as f64;
             self.restore(system, k);
             for axis in 0..2 {
@@ -49,7 +48,7 @@ impl Series {
                 block[axis][k] = moved[axis];
                 rate[axis][k] = moved[axis] - (slope * time + if k == 0 { table } else { 0.0 });
             }
-            if k == order {
+            if k == DEGREE {
                 break;
             }
             let [x, y] = &self.direction;
@@ -64,7 +63,7 @@ impl Series {
             let carried = block.each_ref().map(|block| product(&self.speed, block, k));
             self.integrate_modes(system, k, (per, carried), sums);
         }
-        self.degree = order;
+        self.degree = DEGREE;
         self.part = self.fitting_part(scales).min(1.0);
     }
 }
