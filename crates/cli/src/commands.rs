@@ -1,7 +1,6 @@
 //! One module a command.
 
 pub mod assess;
-mod assessment;
 pub mod compare;
 pub mod histories;
 pub mod identify;

@@ -3,8 +3,11 @@
 mod args;
 mod commands;
 mod failure;
+mod model_file;
+mod opened;
 mod progress;
 mod record_args;
+mod results;
 
 use std::io::{self, IsTerminal};
 use std::path::Path;

@@ -6,19 +6,18 @@ use std::time::Duration;
 
 use slipstick::assessment::AssessmentError;
 use slipstick::hash::sha256_hex;
-use slipstick::requests::{Answer, Curves, Results, Runs};
+use slipstick::requests::{Curves, Results, Runs};
 use slipstick::study::engine::Engine;
-use slipstick::table::Table;
 use slipstick_files::{
-    OutputFolder, ReadTable, files_of_runs, limit_of_ida, on_threads, read_bytes, read_csv,
-    read_runs, read_table, reading_time, time_left,
+    ReadTable, files_of_runs, limit_of_ida, on_threads, read_bytes, read_csv, read_runs,
+    read_table, reading_time, time_left,
 };
-use slipstick_report::assessment::answer;
 
-use super::assessment::{Opened, Written, conclude, folder};
-use crate::args::{AssessArgs, FragilityArgs, ResultArgs};
+use crate::args::{AssessArgs, FragilityArgs};
 use crate::failure::Failure;
+use crate::opened::Opened;
 use crate::progress::{TRIAL, counted, estimated};
+use crate::results::{Source, folder, tell};
 
 /// Runs, prints and writes; status 1 where a run has no answer, or no design is found.
 pub fn assess<const KIND: usize>(args: &AssessArgs<KIND>) -> Result<ExitCode, Failure> {
@@ -56,30 +55,6 @@ pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
     let folder = folder(&args.result, &inputs)?;
     tell(&args.result, folder, answer, &sources, &[])
 }
-
-/// Prints and writes an answer.
-pub(super) fn tell(
-    args: &ResultArgs,
-    folder: Option<OutputFolder>,
-    answer: Answer,
-    sources: &[Source],
-    inputs: &[(String, String)],
-) -> Result<ExitCode, Failure> {
-    let sheet = answer::sheet(&answer, args.display_units);
-    let tables = answer::tables(answer);
-    let files: Vec<(String, &Table)> = tables
-        .iter()
-        .flat_map(|tabled| {
-            tabled.forms.iter().map(|form| (format!("{}.{form}", tabled.name), &tabled.table))
-        })
-        .collect();
-    let files: Vec<(&str, &Table)> =
-        files.iter().map(|(name, table)| (&name[..], *table)).collect();
-    conclude(args, Written::usual(folder), &sheet, &files, sources, inputs)
-}
-
-/// A file that was read: its path, its hash, what it is.
-pub(super) type Source = (String, String, String);
 
 /// Time that reading a source may take, from its first lines or its first parts.
 fn reading_left(source: &Path) -> Option<Duration> {

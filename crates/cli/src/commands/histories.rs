@@ -7,11 +7,11 @@ use slipstick::input;
 use slipstick::requests::{Kind, On};
 use slipstick_files::{read_target, stems_or_paths};
 
-use super::assess::{Source, tell};
-use super::assessment::{Opened, folder, open_records};
-use super::run::read_model;
 use crate::args::RunArgs;
 use crate::failure::Failure;
+use crate::model_file::read_model;
+use crate::opened::{Opened, open_records};
+use crate::results::{Source, folder, tell};
 
 /// Runs, prints and writes; status 1 where a certificate does not hold.
 pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {

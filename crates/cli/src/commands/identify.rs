@@ -9,17 +9,16 @@ use slipstick::laboratory::measured::Measured;
 use slipstick::requests::{Kind, Request};
 use slipstick::study::engine::Engine;
 use slipstick_files::{
-    LaboratoryError, OutputFolder, SourceFile, TextFile, expand_all, on_threads, read_mapping,
-    read_measured, time_left,
+    LaboratoryError, OutputFolder, SourceFile, expand_all, on_threads, read_mapping, read_measured,
+    time_left,
 };
 use slipstick_report::laboratory::identify;
 
-use super::assessment::{Written, conclude};
-use super::compare::WentIn;
-use super::run::{ModelFile, overrides, read_model};
 use crate::args::{IdentifyCommand, ResultArgs, TestArgs};
 use crate::failure::Failure;
+use crate::model_file::{ModelFile, overrides, read_model};
 use crate::progress::{TRIAL, counted, estimated, reading};
+use crate::results::{Inputs, Written, conclude, folder};
 
 /// Runs one of the three jobs.
 pub fn identify(command: &IdentifyCommand) -> Result<ExitCode, Failure> {
@@ -72,10 +71,10 @@ impl<'a> Job<'a> {
         let (measured, sources): (Vec<Measured>, Vec<SourceFile>) = read?.into_iter().unzip();
         let inputs = Inputs {
             model: model.as_ref(),
-            sources: &sources.iter().collect::<Vec<_>>(),
+            measured: &sources.iter().collect::<Vec<_>>(),
             mapping: mapping_file.as_ref(),
         };
-        let folder = output(self.result, &inputs.paths())?;
+        let folder = folder(self.result, &inputs.paths())?;
         let on = model.as_ref().zip(text.as_deref());
         let on = on.map(|(model, text)| ModelText { name: &model.name, text, set: &set });
         let identified = self.identified(on, &measured, jobs);
@@ -138,29 +137,6 @@ fn failure(error: IdentifyError, model: &str) -> Failure {
     }
 }
 
-/// An output folder that replaces none of the inputs.
-fn output(args: &ResultArgs, inputs: &[PathBuf]) -> Result<Option<OutputFolder>, Failure> {
-    let folder = args.out.as_deref().map(|out| OutputFolder::create(out, inputs));
-    Ok(folder.transpose()?)
-}
-
-/// What went into an identification: the model, the files in their order, the mapping.
-struct Inputs<'a> {
-    model: Option<&'a ModelFile>,
-    sources: &'a [&'a SourceFile],
-    mapping: Option<&'a TextFile>,
-}
-
-impl Inputs<'_> {
-    /// All that an output folder must not replace.
-    fn paths(&self) -> Vec<PathBuf> {
-        let sources = self.sources.iter().map(|source| source.path.clone());
-        let model = self.model.map(|model| model.path.clone());
-        let mapping = self.mapping.map(|file| file.source.path.clone());
-        sources.chain(model).chain(mapping).collect()
-    }
-}
-
 /// Writes and prints a result; status 1 where the data do not tell everything.
 fn finish(
     args: &ResultArgs,
@@ -169,9 +145,8 @@ fn finish(
     measured: &[Measured],
     identified: &Identified,
 ) -> Result<ExitCode, Failure> {
-    let WentIn { files, texts } = WentIn::of_files(inputs.model, inputs.sources, inputs.mapping);
     let sheet = identify::sheet(measured, identified, args.display_units);
     let more = identified.files();
     let written = Written { folder, json: "identified.json", more: &more, replaces: &[] };
-    conclude(args, written, &sheet, &[], &files, &texts)
+    conclude(args, written, &sheet, &[], &inputs.sources(), &inputs.texts())
 }

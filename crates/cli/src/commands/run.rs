@@ -1,26 +1,25 @@
 //! `slipstick run`: the main job.
 
-use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use slipstick::assessment::single::{Job, Outcome};
-use slipstick::error::InputError;
 use slipstick::hash::sha256_hex;
-use slipstick::input::{self, Analysis, Override, Scale};
+use slipstick::input::{self, Scale};
 use slipstick::record;
 use slipstick::requests::Kind;
 use slipstick::units::Dimension;
 use slipstick_files::{
-    FileError, OpenJob, OutputFolder, RecordRequest, events_csv, history_csv, modes_beside,
-    read_at_most, record_path,
+    FileError, OpenJob, OutputFolder, RecordRequest, events_csv, history_csv, record_path,
 };
-use slipstick_report::{FileNote, InputText, Report, Summary, opensees, report, table};
+use slipstick_report::{FileNote, InputText, Report, Summary, opensees, table};
 
 use super::histories::histories;
 use crate::args::{RunArgs, quantity};
 use crate::failure::{Failure, print, say};
+use crate::model_file::{ModelFile, read_model, tell_replaced};
 use crate::progress::{Lines, TRIAL, estimated, reading, writing};
+use crate::results::{command_line, folder};
 
 /// Runs one analysis, prints it and writes its files.
 pub fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
@@ -61,17 +60,9 @@ fn one(args: &RunArgs, model: &Path) -> Result<ExitCode, Failure> {
         return Ok(ExitCode::SUCCESS);
     }
     // An output folder that cannot be written is told before the work, not after it.
-    let folder = args
-        .on
-        .result
-        .out
-        .as_deref()
-        .map(|out| {
-            let records = job.sources.iter().map(|source| source.path.clone());
-            let inputs: Vec<PathBuf> = records.chain([model.path.clone()]).collect();
-            OutputFolder::create(out, &inputs)
-        })
-        .transpose()?;
+    let records = job.sources.iter().map(|source| source.path.clone());
+    let inputs: Vec<PathBuf> = records.chain([model.path.clone()]).collect();
+    let folder = folder(&args.on.result, &inputs)?;
     let (outcome, summary) =
         estimated("computing", args.on.result.quiet, &|| job.estimate(TRIAL), || {
             job.run(asked.floor_spectrum)
@@ -103,95 +94,6 @@ fn opensees_script(model: &ModelFile, job: &Job, stiffness: &str) -> Result<Stri
 /// 1 where the check of a run, or of one of its bounds, failed.
 fn status(summary: &Summary) -> u8 {
     u8::from(summary.check_failed())
-}
-
-/// The model file as it was read.
-pub(super) struct ModelFile {
-    /// What messages call it.
-    pub name: String,
-    /// Where it is; empty for standard input.
-    pub path: PathBuf,
-    /// All of it.
-    pub bytes: Vec<u8>,
-    /// The table of modes that it names.
-    pub modes: Option<Override>,
-}
-
-impl ModelFile {
-    fn new(name: String, path: PathBuf, bytes: Vec<u8>) -> Result<Self, Failure> {
-        let modes = modes_beside(&path, &name, &bytes)
-            .map_err(|error| Failure::input(error, &String::from_utf8_lossy(&bytes)))?;
-        Ok(Self { name, path, bytes, modes })
-    }
-
-    /// The table of modes, then the options that set keys of the model.
-    pub fn overrides(&self, set: &[String]) -> Result<Vec<Override>, Failure> {
-        Ok(self.modes.iter().cloned().chain(overrides(set)?).collect())
-    }
-
-    /// What is wrong with it: with the line in question, unless that is one of the table of modes.
-    pub fn failure(&self, error: InputError) -> Failure {
-        let named = |modes: &Override| modes.text().ends_with(&error.place.source_name);
-        match self.modes.as_ref().filter(|_| !error.place.source_name.is_empty()).is_some_and(named)
-        {
-            true => Failure::Message(error.to_string()),
-            false => Failure::input(error, &self.text()),
-        }
-    }
-}
-
-impl ModelFile {
-    /// All of it as text.
-    pub fn text(&self) -> String {
-        String::from_utf8_lossy(&self.bytes).into_owned()
-    }
-}
-
-pub(super) fn read_model(path: &Path) -> Result<ModelFile, Failure> {
-    let limit = input::MAX_TEXT_BYTES as u64;
-    if path != Path::new("-") {
-        let name = path.display().to_string();
-        return ModelFile::new(name, path.to_owned(), read_at_most(path, limit)?);
-    }
-    let path = PathBuf::from("standard input");
-    let mut bytes = Vec::new();
-    let read = io::stdin().lock().take(limit + 1).read_to_end(&mut bytes);
-    if let Err(source) = read {
-        return Err(FileError::Read { path, source }.into());
-    }
-    if bytes.len() as u64 > limit {
-        return Err(FileError::TooLarge { path, limit }.into());
-    }
-    ModelFile::new(path.display().to_string(), PathBuf::new(), bytes)
-}
-
-/// The options that set keys of the model.
-pub(super) fn overrides(set: &[String]) -> Result<Vec<Override>, Failure> {
-    let read = |text: &String| Override::of_option("--set", text);
-    let all: Result<_, InputError> = set.iter().map(read).collect();
-    all.map_err(|error| Failure::Message(error.to_string()))
-}
-
-/// Says what a key that was set takes the place of.
-pub(super) fn tell_replaced(
-    model: &ModelFile,
-    overrides: &[Override],
-    analysis: &Analysis,
-    quiet: bool,
-) {
-    let (modes, set): (Vec<Override>, Vec<Override>) =
-        overrides.iter().cloned().partition(Override::is_modes);
-    if quiet || set.is_empty() {
-        return;
-    }
-    let Ok(written) = input::from_bytes(&model.name, &model.bytes, &modes) else { return };
-    let kept: Vec<&str> = analysis.inputs().map(|input| input.path).collect();
-    let gone: Vec<&str> =
-        written.inputs().map(|input| input.path).filter(|path| !kept.contains(path)).collect();
-    if !gone.is_empty() {
-        let set: Vec<&str> = set.iter().map(Override::path).collect();
-        say(format_args!("note: {} replaces {} of the model", set.join(", "), gone.join(", ")));
-    }
 }
 
 /// The record of `--motion`, completed by the options beside it.
@@ -285,12 +187,6 @@ fn write_files(
     folder.write_with("events.csv", |to| events_csv(response, &mut Lines { to, written }))?;
     folder.write("report.html", report.to_html().as_bytes())?;
     folder.commit()
-}
-
-/// The command as it was typed, with quotes where the shell needs them.
-pub fn command_line() -> String {
-    let words = std::env::args_os().skip(1);
-    report::command_line(words.map(|word| word.to_string_lossy().into_owned()))
 }
 
 #[cfg(test)]

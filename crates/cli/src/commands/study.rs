@@ -16,10 +16,10 @@ use slipstick_report::number::count;
 use slipstick_report::study::{StudyReport, said, table};
 use slipstick_report::{FileNote, InputText};
 
-use super::run::command_line;
 use crate::args::{StudyArgs, StudyCommand};
 use crate::failure::{Failure, print, say};
 use crate::progress::{Steps, counted, on_interrupt, watched};
+use crate::results::command_line;
 
 /// How long `--dry-run` runs samples to know how fast they are.
 const TRIAL: Duration = Duration::from_secs(1);

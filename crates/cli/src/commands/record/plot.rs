@@ -54,7 +54,7 @@ pub fn plot(args: &PlotArgs) -> Result<ExitCode, Failure> {
         return Ok(many.status());
     }
     let text = if as_page {
-        page(&drawn, display, &crate::commands::run::command_line())
+        page(&drawn, display, &crate::results::command_line())
     } else if let [(_, figures)] = &drawn[..] {
         let svgs: Vec<_> = figures.iter().map(|figure| figure.svg.clone()).collect();
         plot::column(&svgs).as_str().to_owned()

@@ -1,28 +1,22 @@
-//! What the analyses over a suite share: model and records in, sheets and tables out.
+//! A model and the records that it runs on, read.
 
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use slipstick::assessment::AssessmentError;
 use slipstick::assessment::suite::Suite;
-use slipstick::hash::sha256_hex;
 use slipstick::input::{self, Analysis, Override};
 use slipstick::requests::On;
 use slipstick::response::Method;
 use slipstick::study::engine::Engine;
-use slipstick::table::Table;
 use slipstick_files::{
-    LoadedMotion, OpenJob, OpenSuite, OutputFolder, SuiteError, SuiteRequest, on_threads, to_csv,
-    to_parquet,
+    LoadedMotion, OpenJob, OpenSuite, OutputFolder, SuiteError, SuiteRequest, on_threads,
 };
-use slipstick_report::assessment::{Sheet, Went};
-use slipstick_report::{FileNote, InputText};
 
-use super::compare::name as model_name;
-use super::run::{ModelFile, command_line, read_model, tell_replaced};
 use crate::args::{ResultArgs, SuiteArgs};
-use crate::failure::{Failure, print, say};
+use crate::failure::Failure;
+use crate::model_file::{ModelFile, read_model, tell_replaced};
 use crate::progress::counted;
+use crate::results::{Source, folder};
 
 /// A model and its suite, read.
 pub struct Opened {
@@ -32,7 +26,7 @@ pub struct Opened {
     pub analysis: Analysis,
     overrides: Vec<Override>,
     pub suite: Suite,
-    sources: Vec<(String, String, String)>,
+    sources: Vec<Source>,
 }
 
 impl Opened {
@@ -57,7 +51,7 @@ impl Opened {
             let error = analysis.error_at("analysis.method", expected, "\"stepwise\"");
             return Err(Failure::input(error, &file.text()));
         }
-        let name = model_name(&file, analysis.name.as_deref());
+        let name = file.model_name(analysis.name.as_deref());
         let OpenSuite { suite, sources } = match records()? {
             Some(records) => records,
             None => {
@@ -106,9 +100,8 @@ impl Opened {
     }
 
     /// Files that went in, model first.
-    pub fn sources(&self) -> Vec<(String, String, String)> {
-        let model = (self.file.name.clone(), sha256_hex(&self.file.bytes), "model".to_owned());
-        std::iter::once(model).chain(self.sources.iter().cloned()).collect()
+    pub fn sources(&self) -> Vec<Source> {
+        std::iter::once(self.file.source()).chain(self.sources.iter().cloned()).collect()
     }
 
     /// The folder for the results, refused where it would replace an input.
@@ -150,82 +143,4 @@ pub fn open_records(args: &SuiteArgs) -> Result<Option<OpenSuite>, Failure> {
             SuiteError::Stopped(error) => Failure::Message(error.to_string()),
         })?;
     Ok(Some(opened))
-}
-
-/// The folder for results, made before any work is done.
-pub fn folder(args: &ResultArgs, inputs: &[PathBuf]) -> Result<Option<OutputFolder>, Failure> {
-    Ok(args.out.as_deref().map(|out| OutputFolder::create(out, inputs)).transpose()?)
-}
-
-/// Where a result is written.
-pub struct Written<'a> {
-    /// The folder, if any.
-    pub folder: Option<OutputFolder>,
-    /// Name of the file of JSON.
-    pub json: &'a str,
-    /// Further files: names and texts.
-    pub more: &'a [(&'static str, String)],
-    /// Files of other results, which would be stale beside these.
-    pub replaces: &'a [&'static str],
-}
-
-impl Written<'_> {
-    /// The usual files.
-    pub fn usual(folder: Option<OutputFolder>) -> Self {
-        Self { folder, json: "summary.json", more: &[], replaces: &["history.csv", "events.csv"] }
-    }
-}
-
-/// Writes tables, figures, summary and report, and prints the result; status 1 where it is not complete.
-pub fn conclude(
-    args: &ResultArgs,
-    written: Written<'_>,
-    sheet: &Sheet,
-    tables: &[(&str, &Table)],
-    sources: &[(String, String, String)],
-    inputs: &[(String, String)],
-) -> Result<ExitCode, Failure> {
-    let Written { folder, json, more, replaces } = written;
-    if let Some(mut folder) = folder {
-        folder.replaces(replaces);
-        for (name, table) in tables {
-            match name.rsplit_once('.') {
-                Some((_, "parquet")) => folder.write(name, &to_parquet(Path::new(name), table)?)?,
-                _ => folder.write(name, to_csv(table).as_bytes())?,
-            }
-        }
-        for figure in &sheet.figures {
-            folder.write(&format!("{}.svg", figure.id), figure.svg.as_str().as_bytes())?;
-        }
-        let files: Vec<FileNote> = sources
-            .iter()
-            .map(|(path, sha256, description)| FileNote { path, sha256, description })
-            .collect();
-        let inputs: Vec<InputText> =
-            inputs.iter().map(|(path, text)| InputText { path, text }).collect();
-        let went = Went { command_line: &command_line(), files: &files, inputs: &inputs };
-        folder.write(json, sheet.to_json().as_bytes())?;
-        folder.write("report.html", sheet.to_html(&went).as_bytes())?;
-        for (name, text) in more {
-            folder.write(name, text.as_bytes())?;
-        }
-        folder.commit()?;
-    }
-    print(&if args.json { sheet.to_json() } else { sheet.to_text() })?;
-    let status = ExitCode::from(u8::from(!sheet.complete));
-    if args.quiet {
-        return Ok(status);
-    }
-    if args.json {
-        for warning in &sheet.warnings {
-            let label = warning.severity().name();
-            say(format_args!("{label}: {}: {}", warning.kind, warning.message));
-        }
-    }
-    if let Some(out) = &args.out {
-        for name in core::iter::once("report.html").chain(more.iter().map(|(name, _)| *name)) {
-            say(format_args!("wrote {}", out.join(name).display()));
-        }
-    }
-    Ok(status)
 }

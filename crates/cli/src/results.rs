@@ -1,0 +1,161 @@
+//! What a command leaves: a printed sheet, and a folder with tables, figures and a report.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use slipstick::requests::Answer;
+use slipstick::table::Table;
+use slipstick_files::{OutputFolder, SourceFile, TextFile, to_csv, to_parquet};
+use slipstick_report::assessment::{Sheet, Went, answer};
+use slipstick_report::{FileNote, InputText, report};
+
+use crate::args::ResultArgs;
+use crate::failure::{Failure, print, say};
+use crate::model_file::ModelFile;
+
+/// A file that was read: its path, its hash, what it is.
+pub type Source = (String, String, String);
+
+/// The folder for results, made before any work is done.
+pub fn folder(args: &ResultArgs, inputs: &[PathBuf]) -> Result<Option<OutputFolder>, Failure> {
+    Ok(args.out.as_deref().map(|out| OutputFolder::create(out, inputs)).transpose()?)
+}
+
+/// Where a result is written.
+pub struct Written<'a> {
+    /// The folder, if any.
+    pub folder: Option<OutputFolder>,
+    /// Name of the file of JSON.
+    pub json: &'a str,
+    /// Further files: names and texts.
+    pub more: &'a [(&'static str, String)],
+    /// Files of other results, which would be stale beside these.
+    pub replaces: &'a [&'static str],
+}
+
+impl Written<'_> {
+    /// The usual files.
+    pub fn usual(folder: Option<OutputFolder>) -> Self {
+        Self { folder, json: "summary.json", more: &[], replaces: &["history.csv", "events.csv"] }
+    }
+}
+
+/// Writes tables, figures, summary and report, and prints the result; status 1 where it is not complete.
+pub fn conclude(
+    args: &ResultArgs,
+    written: Written<'_>,
+    sheet: &Sheet,
+    tables: &[(&str, &Table)],
+    sources: &[Source],
+    inputs: &[(String, String)],
+) -> Result<ExitCode, Failure> {
+    let Written { folder, json, more, replaces } = written;
+    if let Some(mut folder) = folder {
+        folder.replaces(replaces);
+        for (name, table) in tables {
+            match name.rsplit_once('.') {
+                Some((_, "parquet")) => folder.write(name, &to_parquet(Path::new(name), table)?)?,
+                _ => folder.write(name, to_csv(table).as_bytes())?,
+            }
+        }
+        for figure in &sheet.figures {
+            folder.write(&format!("{}.svg", figure.id), figure.svg.as_str().as_bytes())?;
+        }
+        let files: Vec<FileNote> = sources
+            .iter()
+            .map(|(path, sha256, description)| FileNote { path, sha256, description })
+            .collect();
+        let inputs: Vec<InputText> =
+            inputs.iter().map(|(path, text)| InputText { path, text }).collect();
+        let went = Went { command_line: &command_line(), files: &files, inputs: &inputs };
+        folder.write(json, sheet.to_json().as_bytes())?;
+        folder.write("report.html", sheet.to_html(&went).as_bytes())?;
+        for (name, text) in more {
+            folder.write(name, text.as_bytes())?;
+        }
+        folder.commit()?;
+    }
+    print(&if args.json { sheet.to_json() } else { sheet.to_text() })?;
+    let status = ExitCode::from(u8::from(!sheet.complete));
+    if args.quiet {
+        return Ok(status);
+    }
+    if args.json {
+        for warning in &sheet.warnings {
+            let label = warning.severity().name();
+            say(format_args!("{label}: {}: {}", warning.kind, warning.message));
+        }
+    }
+    if let Some(out) = &args.out {
+        for name in core::iter::once("report.html").chain(more.iter().map(|(name, _)| *name)) {
+            say(format_args!("wrote {}", out.join(name).display()));
+        }
+    }
+    Ok(status)
+}
+
+/// Prints and writes the answer to a request.
+pub fn tell(
+    args: &ResultArgs,
+    folder: Option<OutputFolder>,
+    answer: Answer,
+    sources: &[Source],
+    inputs: &[(String, String)],
+) -> Result<ExitCode, Failure> {
+    let sheet = answer::sheet(&answer, args.display_units);
+    let tables = answer::tables(answer);
+    let files: Vec<(String, &Table)> = tables
+        .iter()
+        .flat_map(|tabled| {
+            tabled.forms.iter().map(|form| (format!("{}.{form}", tabled.name), &tabled.table))
+        })
+        .collect();
+    let files: Vec<(&str, &Table)> =
+        files.iter().map(|(name, table)| (&name[..], *table)).collect();
+    conclude(args, Written::usual(folder), &sheet, &files, sources, inputs)
+}
+
+/// What a result of the laboratory comes from.
+pub struct Inputs<'a> {
+    pub model: Option<&'a ModelFile>,
+    /// Files of measurements, in their order.
+    pub measured: &'a [&'a SourceFile],
+    /// Which columns are which channels.
+    pub mapping: Option<&'a TextFile>,
+}
+
+impl Inputs<'_> {
+    /// All that an output folder must not replace.
+    pub fn paths(&self) -> Vec<PathBuf> {
+        let model = self.model.map(|model| model.path.clone());
+        let measured = self.measured.iter().map(|file| file.path.clone());
+        let mapping = self.mapping.map(|file| file.source.path.clone());
+        model.into_iter().chain(measured).chain(mapping).collect()
+    }
+
+    /// Path, hash and kind of each.
+    pub fn sources(&self) -> Vec<Source> {
+        let source = |file: &SourceFile, kind: &str| {
+            (file.path.display().to_string(), file.sha256.clone(), kind.to_owned())
+        };
+        let model = self.model.map(ModelFile::source);
+        let measured = self.measured.iter().map(|file| source(file, "measured"));
+        let mapping = self.mapping.map(|file| source(&file.source, "mapping"));
+        model.into_iter().chain(measured).chain(mapping).collect()
+    }
+
+    /// Path and text of those that a report shows.
+    pub fn texts(&self) -> Vec<(String, String)> {
+        let model = self.model.map(|model| (model.name.clone(), model.text()));
+        let mapping = self.mapping;
+        let mapping =
+            mapping.map(|file| (file.source.path.display().to_string(), file.text.clone()));
+        model.into_iter().chain(mapping).collect()
+    }
+}
+
+/// The command as it was typed, with quotes where the shell needs them.
+pub fn command_line() -> String {
+    let words = std::env::args_os().skip(1);
+    report::command_line(words.map(|word| word.to_string_lossy().into_owned()))
+}
