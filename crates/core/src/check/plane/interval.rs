@@ -179,10 +179,11 @@ impl<'a> PlaneJudge<'a> {
                 Reach::Within(reach_s) => reach_s,
                 Reach::Rest(rest_s) => {
                     let (w, push) = (way.state.speed(), self.push(&way.state, &loads));
-                    let heading = unit(w).filter(|_| {
-                        norm(w) > self.frame().rounded(stretch.from_s + t, &loads, push)
-                    });
-                    self.axes.heading = heading.or(self.axes.heading);
+                    let rounded = self.frame().rounded(stretch.from_s + t, &loads, push);
+                    let turns_about = |before: &Pair| dot(w, *before) < 0.0 && norm(w) <= rounded;
+                    if !self.axes.heading.as_ref().is_some_and(turns_about) {
+                        self.axes.heading = unit(w);
+                    }
                     way.rested_s = Some(left_s - rest_s);
                     way.state.lose_speed(self.frame());
                     return self.rest(way, &stretch.part(t, left_s));

@@ -17,7 +17,7 @@ use super::frame::{
     Forces, Loads, Pair, PlaneFrame, between, cross, dot, norm, table, times, unit,
 };
 
-/// A velocity below this part of the largest in a step has no direction, nor one that a time's rounding makes.
+/// A velocity below this part of the largest in a step has no direction.
 const ROUNDING: f64 = 1e-9;
 /// Largest last Legendre coefficient over the largest acceleration with which the polynomials are as good as the
 /// motion.
@@ -115,11 +115,13 @@ impl Step {
     pub(super) fn heading(&self, frame: &PlaneFrame<'_>, point: usize, push: Pair) -> Pair {
         let fastest = (0..POINTS).fold(0.0, |most: f64, i| most.max(norm(self.speed(i))));
         let (w, Stretch { from_s, step_s, loads }) = (self.speed(point), &self.stretch);
-        let rounded = frame.rounded(from_s + step_s, &loads[0], push);
-        if norm(w) > rounded.max(ROUNDING * fastest) {
+        let beside = self.speed(if point == 0 { 1 } else { point - 1 });
+        // Friction does not turn a slip about: one that is against its last direction has come to rest.
+        let turns_about =
+            dot(w, beside) < 0.0 && norm(w) <= frame.rounded(from_s + step_s, &loads[0], push);
+        if norm(w) > ROUNDING * fastest && !turns_about {
             return unit(w).unwrap_or_default();
         }
-        let beside = self.speed(if point == 0 { 1 } else { point - 1 });
         let along = if frame.body.is_one() {
             unit(push)
         } else {
