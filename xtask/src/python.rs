@@ -52,7 +52,7 @@ impl Package {
         if folder.exists() {
             std::fs::remove_dir_all(folder).map_err(failed)?;
         }
-        let mut maturin = self.command("-m maturin build --quiet --profile");
+        let mut maturin = self.command("-m maturin build --quiet --compression-level 9 --profile");
         let manifest = format!("{PACKAGE}/Cargo.toml");
         maturin.args([profile, "--manifest-path", &manifest, "--out"]).arg(folder);
         shell::run(&mut maturin)?;

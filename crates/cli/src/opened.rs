@@ -127,6 +127,7 @@ pub fn open_records(args: &SuiteArgs) -> Result<Option<OpenSuite>, Failure> {
     let options = args.record.options(true)?;
     let request = SuiteRequest {
         patterns: args.records.clone(),
+        along_y: Vec::new(),
         second: args.second.clone(),
         vertical: args.vertical.clone(),
         units: options.units,

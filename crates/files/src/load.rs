@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 use slipstick::hash::sha256_hex;
 use slipstick::input::loaded::{Component, Components, LoadError, Loaded, Wanted};
 use slipstick::input::{PairOf, Scale};
-use slipstick::record::{self, Format, Options, Record, Units};
+use slipstick::record::{Format, Options, Record, Units};
 
 use crate::error::FileError;
 use crate::read::read_bytes;
+use crate::records::understood;
 
 /// A record to be opened, and what it may not say itself.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -144,13 +145,13 @@ fn open(
 ) -> Result<Record, FileError> {
     let bytes = read_bytes(path)?;
     sources.push(SourceFile { path: path.to_owned(), sha256: sha256_hex(&bytes) });
-    Ok(record::read(&path.display().to_string(), &bytes, options)?)
+    understood(path, &bytes, options)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use slipstick::record::Sampling;
+    use slipstick::record::{self, Sampling};
 
     fn write(name: &str, text: &str) -> PathBuf {
         let folder = std::env::temp_dir().join(format!("slipstick-load-{}", std::process::id()));

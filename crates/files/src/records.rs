@@ -7,11 +7,12 @@ use slipstick::record::{
     self, Channel, Format, Options, Quantity, Record, Sampling, Units, write_at2, write_csv,
     write_smc,
 };
-use slipstick::table::Column;
+use slipstick::table::{Cells, Column, Table};
 
 use crate::error::FileError;
-use crate::parquet::columns_with_notes;
+use crate::parquet::{self, columns_with_notes};
 use crate::read::read_bytes;
+use crate::table::to_csv;
 
 /// What the caller says of files that do not say it themselves.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -34,7 +35,36 @@ pub fn open_record(path: &Path, options: &RecordOptions) -> Result<Record, FileE
     let bytes = read_bytes(path)?;
     let RecordOptions { format, units, dt_s, .. } = *options;
     let options = Options { format, units, dt_s };
-    Ok(record::read(&path.display().to_string(), &bytes, &options)?)
+    understood(path, &bytes, &options)
+}
+
+/// What every file of Parquet starts with.
+const PARQUET: &[u8] = b"PAR1";
+
+/// The record in the bytes of a file. A table of Parquet is read as CSV with the same columns.
+pub(crate) fn understood(
+    path: &Path,
+    bytes: &[u8],
+    options: &Options,
+) -> Result<Record, FileError> {
+    let name = path.display().to_string();
+    if !bytes.starts_with(PARQUET) || options.format.is_some() {
+        return Ok(record::read(&name, bytes, options)?);
+    }
+    let table = parquet::Table::of(path)?;
+    let columns = table.columns(usize::MAX)?;
+    let numbers = columns.into_iter().filter(|column| matches!(column.cells, Cells::Numbers(_)));
+    let columns = numbers.collect();
+    let record = record::read(&name, to_csv(&Table { columns }).as_bytes(), options)?;
+    let of = |key: &str| table.note(key).map(str::to_owned);
+    let said = |channel| Channel {
+        event: of("event"),
+        station: of("station"),
+        component: of("component"),
+        ..channel
+    };
+    let channels = record.channels.into_iter().map(said).collect();
+    Ok(Record { layout: record.layout.replacen("text", "Parquet", 1), channels, ..record })
 }
 
 /// Which channels a command can use.

@@ -4,13 +4,15 @@ use std::path::{Path, PathBuf};
 
 use slipstick::assessment::suite::Suite;
 use slipstick::error::{ChoiceError, Stopped};
+use slipstick::input::PairOf;
+use slipstick::input::loaded::{Component, Loaded};
 use slipstick::notice::{Notice, NoticeKind};
-use slipstick::record::Units;
+use slipstick::record::{Origin, Units};
 use slipstick::study::engine::Engine;
 
 use crate::error::FileError;
 use crate::globs::{expand_all, expand_once, named_twice};
-use crate::load::{LoadedMotion, RecordRequest, VerticalRequest, load_record};
+use crate::load::{AlongYRequest, LoadedMotion, RecordRequest, VerticalRequest, load_record};
 use crate::unfit::refuse_unfit;
 
 /// Why the records of a suite cannot be used.
@@ -34,6 +36,8 @@ pub struct SuiteRequest {
     pub patterns: Vec<String>,
     /// The same for the other horizontal components: pairs, whose components stand beside each other.
     pub second: Vec<String>,
+    /// The same for the components along y of motions in two horizontal directions, each one record.
+    pub along_y: Vec<String>,
     /// The same for the vertical components, as many and in the same order.
     pub vertical: Vec<String>,
     /// Units, where files do not state them.
@@ -73,7 +77,8 @@ impl ReadRecords {
         let (mut files, mut again) = expand_once(Path::new(""), &request.patterns)?;
         let second = expand_all(Path::new(""), &request.second)?;
         let mut vertical = expand_all(Path::new(""), &request.vertical)?;
-        if !second.is_empty() {
+        let along_y = expand_all(Path::new(""), &request.along_y)?;
+        if !second.is_empty() || !along_y.is_empty() {
             // A component may be of two pairs.
             (files, again) = (expand_all(Path::new(""), &request.patterns)?, Vec::new());
         }
@@ -89,6 +94,7 @@ impl ReadRecords {
             }))
         };
         as_many("second", "other component", &second)?;
+        as_many("y", "component along y", &along_y)?;
         as_many("vertical", "vertical motion", &vertical)?;
         let pairs = !second.is_empty();
         if pairs {
@@ -102,6 +108,13 @@ impl ReadRecords {
                 units: request.units,
                 dt_s: request.dt_s,
                 channel: request.channel.clone(),
+                along_y: along_y.get(i).map(|path| AlongYRequest {
+                    path: path.clone(),
+                    units: request.units,
+                    dt_s: request.dt_s,
+                    channel: request.channel.clone(),
+                    pair: PairOf { scale_y: 1.0, rotate_rad: 0.0 },
+                }),
                 vertical: vertical.get(i).map(|path| VerticalRequest {
                     path: path.clone(),
                     channel: None,
@@ -112,14 +125,38 @@ impl ReadRecords {
         };
         let loaded = engine.runs(files.len(), load)?;
         let loaded = loaded.into_iter().collect::<Result<Vec<_>, FileError>>()?;
-        let read: Vec<_> = files.iter().map(PathBuf::as_path).zip(&loaded).collect();
-        let same = refuse_unfit(&read, request.channel.is_some(), pairs)?;
+        let components: Vec<(&Path, Loaded)> = match along_y[..] {
+            [] => {
+                files.iter().zip(&loaded).map(|(file, of)| (&**file, of.loaded.clone())).collect()
+            }
+            _ => files.iter().zip(&along_y).zip(&loaded).flat_map(components).collect(),
+        };
+        let pairs = pairs || !along_y.is_empty();
+        let same = refuse_unfit(&components, request.channel.is_some(), pairs)?;
         let warning = |kind| move |message| Notice::new(kind, message);
         let twice = named_twice(&again).map(warning(NoticeKind::RecordNamedTwice)).into_iter();
         let warnings = twice.chain(same.into_iter().map(warning(NoticeKind::SameMotion))).collect();
-        let records = stems_or_paths(&files).into_iter().zip(loaded).collect();
+        let names = stems_or_paths(&[&files[..], &along_y[..]].concat());
+        let (names, of_y) = names.split_at(files.len());
+        let named = |(i, loaded): (usize, LoadedMotion)| match of_y.get(i) {
+            Some(y) => (format!("{} + {y}", names[i]), loaded),
+            None => (names[i].clone(), loaded),
+        };
+        let records = loaded.into_iter().enumerate().map(named).collect();
         Ok(Self { records, warnings })
     }
+}
+
+/// The components of a motion in two directions, each by its file.
+fn components<'a>(
+    ((x, y), read): ((&'a PathBuf, &'a PathBuf), &LoadedMotion),
+) -> Vec<(&'a Path, Loaded)> {
+    let along_y = read.origin.along_y.as_deref().cloned().unwrap_or_default();
+    let along_x = Origin { along_y: None, ..read.origin.clone() };
+    let of = |(file, component, origin): (&'a PathBuf, Component, Origin)| {
+        Some((&**file, Loaded { origin, ..read.loaded.component(component)? }))
+    };
+    [(x, Component::X, along_x), (y, Component::Y, along_y)].into_iter().filter_map(of).collect()
 }
 
 impl OpenSuite {

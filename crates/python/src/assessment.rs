@@ -86,10 +86,13 @@ impl Assessment {
 
 /// Reads the records of files, folders or patterns; names and motions.
 #[pyfunction]
-#[pyo3(signature = (patterns, *, channel = None, units = None, dt = None, vertical = Vec::new()))]
+#[pyo3(signature = (
+    patterns, *, y = Vec::new(), channel = None, units = None, dt = None, vertical = Vec::new()
+))]
 pub(crate) fn read_suite(
     py: Python<'_>,
     patterns: Vec<String>,
+    y: Vec<String>,
     channel: Option<String>,
     units: Option<&str>,
     dt: Option<&Bound<'_, PyAny>>,
@@ -101,8 +104,8 @@ pub(crate) fn read_suite(
     });
     let units = units.transpose()?;
     let dt_s = dt.map(|dt| quantity("dt", dt, Dimension::Time, true)).transpose()?;
-    let request =
-        SuiteRequest { patterns, vertical, units, dt_s, channel, ..SuiteRequest::default() };
+    let asked = SuiteRequest { patterns, along_y: y, vertical, ..SuiteRequest::default() };
+    let request = SuiteRequest { units, dt_s, channel, ..asked };
     let read = followed(py, None, None, |engine| ReadRecords::read(&request, engine))?;
     let ReadRecords { records, warnings } = read.map_err(|error| match error {
         SuiteError::File(error) => of_file(py, &error),

@@ -8,6 +8,8 @@ use pyo3::prelude::*;
 use slipstick::error::Stopped;
 use slipstick::input::dimension_of;
 use slipstick::input::plan::Plan;
+use slipstick::notice::Notice;
+use slipstick::study::engine::Engine;
 use slipstick::study::{Record, Study as Runs};
 use slipstick::table::{self, Cells};
 use slipstick_files::{OpenStudy, Shard, StudyError, clear, conclude, expand, read_table};
@@ -121,24 +123,29 @@ pub(crate) fn study_id(py: Python<'_>, plan: PathBuf) -> PyResult<String> {
 }
 
 /// Runs a plan into a folder, or what the folder lacks of it, and reads what stands there then; of a
-/// shard only runs it.
+/// shard only runs it. Records in files that hold motions go by the names of these, and what is noticed of them
+/// is noticed of the motions.
 #[pyfunction]
 #[pyo3(signature = (
-    plan, folder, *, names = Vec::new(), shard = None, jobs = None, progress = None, force = false
+    plan, folder, *, motions = Vec::new(), shard = None, jobs = None, progress = None, force = false
 ))]
 #[expect(clippy::too_many_arguments, reason = "the package calls it")]
 pub(crate) fn study(
     py: Python<'_>,
     plan: PathBuf,
     folder: PathBuf,
-    names: Vec<(String, String)>,
+    motions: Vec<(String, String, Motion)>,
     shard: Option<(u64, u64)>,
     jobs: Option<i64>,
     progress: Option<Py<PyAny>>,
     force: bool,
 ) -> PyResult<Study> {
+    let known = |(file, _, motion): &(String, _, Motion)| (file.clone(), motion.0.warnings.clone());
+    let known: Vec<(String, Vec<Notice>)> = motions.iter().map(known).collect();
+    let names: Vec<(String, String)> =
+        motions.into_iter().map(|(file, name, _)| (file, name)).collect();
     let done = followed(py, jobs, progress, |engine| {
-        let study = OpenStudy::open(&plan)?;
+        let study = OpenStudy::open_knowing(&plan, &known, &Engine::unwatched())?;
         if force {
             clear(&folder)?;
         }

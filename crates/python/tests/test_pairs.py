@@ -225,3 +225,22 @@ def test_pairs_that_cannot_be_are_told() -> None:
         ss.Plan(model(), pair, second=alone)
     with pytest.raises(ss.InputError, match="^pairs: expected pairs that are run together"):
         ss.spectrum(model(), pair, pairs="separate")
+
+
+@pytest.mark.parametrize("separate", [False, True])
+def test_a_study_says_of_a_motion_what_the_motion_does(separate: bool) -> None:
+    # Components of unequal lengths: on the times of both the shorter ends with a jump, which is none of their faults.
+    name, pair = list(pairs().items())[1]
+    assert "lengths_differ" in dict(pair.warnings)
+    plan = ss.Plan(model(), {name: pair}, scale=[1.0], bounds="nominal", pairs="separate" if separate else None)
+    for said in ss.study(plan).table["warnings"]:
+        assert "lengths_differ" in said and "times_rounded" not in said and "duplicate_rows" not in said
+
+
+def test_a_suite_of_pairs_is_read_at_once() -> None:
+    found = ss.read_suite(X, y=Y, **READ)
+    assert found == pairs() and [m.warnings for m in found.values()] == [m.warnings for m in pairs().values()]
+    with pytest.raises(ss.InputError, match="y: expected one component along y for each of 2 records, found 1"):
+        ss.read_suite(X, y=Y[:1], **READ)
+    with pytest.raises(Exception, match="expected the other component of .*, found the same motion"):
+        ss.read_suite(X, y=X, **READ)

@@ -172,3 +172,13 @@ def test_a_motion_becomes_a_stream_of_obspy() -> None:
     assert ss.Motion.from_obspy(stream[0], units="m/s2") == taft()
     with pytest.raises(ss.InputError, match="^to_obspy: expected even samples"):
         ss.Motion([0.0, 1.0, 0.0], times_s=[0.0, 0.1, 0.5], units="m/s2").to_obspy()
+
+
+def test_a_motion_comes_back_from_parquet(tmp_path: Path) -> None:
+    motion = ss.read_record(EXAMPLES / "records" / "taft-111.txt", units="g", dt=0.01)
+    read = ss.read_record(motion.write(tmp_path / "a.parquet"))
+    assert read == motion and read.description.startswith("Parquet with 2 columns")
+    uneven = ss.Motion([0.0, 0.2, 0.1, 0.0], times_s=[0.0, 0.1, 0.1, 0.4], units="g")
+    assert ss.read_record(uneven.write(tmp_path / "b.parquet")) == uneven
+    assert list(ss.read_channels(tmp_path / "b.parquet").values()) == [uneven]
+    assert list(ss.read_suite(tmp_path / "*.parquet").values()) == [motion, uneven]

@@ -66,5 +66,25 @@ fn file_name(path: &str) -> &str {
 
 fn same(a: &Loaded, b: &Loaded) -> bool {
     a.motion.horizontal_m_per_s2() == b.motion.horizontal_m_per_s2()
+        && a.motion.horizontal_y_m_per_s2() == b.motion.horizontal_y_m_per_s2()
         && a.motion.times_s() == b.motion.times_s()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::GroundMotion;
+
+    /// Pairs with one component in common are two motions.
+    #[test]
+    fn exact_motions_are_the_same_along_both_axes() {
+        let pair = |y: f64| {
+            let motion = GroundMotion::evenly_spaced(0.1, vec![0.0, 1.0, 0.0], None).unwrap();
+            Loaded::made(motion.with_y(vec![0.0, y, 0.0]).unwrap(), String::new())
+        };
+        let (a, b, c) = (pair(1.0), pair(2.0), pair(1.0));
+        let named = [("a".to_owned(), &a), ("b".to_owned(), &b), ("c".to_owned(), &c)];
+        let same = refuse_unfit(&named, true, false).unwrap();
+        assert_eq!(same, ["a and c are the same motion: it counts twice"]);
+    }
 }

@@ -122,13 +122,18 @@ impl GroundMotion {
         let dt_s = self.dt_s.unwrap_or_else(|| median_interval(&self.times_s));
         let samples = steps(tail_s, dt_s, n + 1)?;
 
-        let mut times_s = self.times_s.to_vec();
+        let longer = |values: &[f64]| {
+            let mut copy = Vec::with_capacity(n + samples + 1);
+            copy.extend_from_slice(values);
+            copy
+        };
+        let mut times_s = longer(&self.times_s);
         let mut components = [
             Some(self.horizontal_m_per_s2()),
             self.horizontal_y_m_per_s2(),
             self.vertical_m_per_s2(),
         ]
-        .map(|component| component.map(<[f64]>::to_vec));
+        .map(|component| component.map(longer));
         let at_rest = components.iter().flatten().all(|component| component[n - 1] == 0.0);
         if !at_rest && times_s[n - 2] == end_s {
             // It ends with a jump, whose right side holds for no time.
@@ -143,7 +148,14 @@ impl GroundMotion {
         times_s.push(end_s + tail_s);
         components.iter_mut().flatten().for_each(|v| v.resize(times_s.len(), 0.0));
         let [horizontal, horizontal_y, vertical] = components;
-        Self::new(times_s, horizontal.unwrap_or_default(), vertical)?.with_y_if(horizontal_y)
+        let horizontal = horizontal.unwrap_or_default();
+        if self.dt_s.is_none() {
+            return Self::new(times_s, horizontal, vertical)?.with_y_if(horizontal_y);
+        }
+        // Checked already: an even motion that goes on at its step lasts in proportion to its samples.
+        let dt_s = super::constant_step(&times_s);
+        let horizontal_y_m_per_s2 = horizontal_y.map(Arc::new);
+        Ok(Self { horizontal_y_m_per_s2, ..Self::of(times_s, horizontal, vertical, dt_s) })
     }
 
     /// This motion with `factor` times the horizontal component of `other` as its vertical one
@@ -395,6 +407,25 @@ mod tests {
         let m = motion(&[0.0, 1.0, 1.0], &[2.0, 2.0, 1.0]).with_tail(1.0).unwrap();
         assert_eq!(m.times_s(), [0.0, 1.0, 1.0, 2.0]);
         assert_eq!(m.horizontal_m_per_s2(), [2.0, 2.0, 0.0, 0.0]);
+    }
+
+    /// What is known of an even motion is not looked at again: the answer is that of the samples alone.
+    #[test]
+    fn exact_tail_of_an_even_motion_is_a_motion_of_its_samples() {
+        for (end, y) in [(0.0, None), (1.0, None), (0.0, Some(2.0)), (0.0, Some(0.0))] {
+            for tail_s in [1e-9, 0.005, 0.01, 0.3, 0.301, 7.0, 5000.0] {
+                let x = vec![0.5, 1.0, -1.0, end];
+                let m = GroundMotion::evenly_spaced(0.01, x.clone(), Some(x)).unwrap();
+                let m = m.with_y_if(y.map(|y| vec![1.0, 0.0, 0.0, y])).unwrap();
+                let tailed = m.with_tail(tail_s).unwrap();
+                let [x, up] = [Some(tailed.horizontal_m_per_s2()), tailed.vertical_m_per_s2()]
+                    .map(Option::unwrap);
+                let again =
+                    GroundMotion::new(tailed.times_s().to_vec(), x.to_vec(), Some(up.to_vec()));
+                let y = tailed.horizontal_y_m_per_s2().map(<[f64]>::to_vec);
+                assert_eq!(again.unwrap().with_y_if(y).unwrap(), tailed, "{end} {tail_s}");
+            }
+        }
     }
 
     #[test]

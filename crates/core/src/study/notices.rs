@@ -125,7 +125,8 @@ pub(crate) fn highest_hz(model: &Model) -> f64 {
 
 /// Longest step of a motion, in s.
 pub(crate) fn longest_step_s(motion: &GroundMotion) -> f64 {
-    motion.times_s().windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max)
+    let longest_s = || motion.times_s().windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max);
+    motion.dt_s().unwrap_or_else(longest_s)
 }
 
 /// Samples further apart than a tenth of the shortest period say little of the highest mode.

@@ -6,6 +6,7 @@ use slipstick::hash::sha256_hex;
 use slipstick::input::plan::{Plan, Records, Target};
 use slipstick::input::{self, MAX_TEXT_BYTES, MotionSource};
 use slipstick::motion::target::TargetSpectrum;
+use slipstick::notice::Notice;
 use slipstick::study::engine::Engine;
 use slipstick::study::{Record, Study};
 use slipstick::table::{Cells, Column};
@@ -66,6 +67,19 @@ impl OpenStudy {
     /// # Errors
     /// As [`OpenStudy::open`], and where it is stopped.
     pub fn open_followed(plan_path: &Path, engine: &Engine<'_>) -> Result<Self, StudyError> {
+        Self::open_knowing(plan_path, &[], engine)
+    }
+
+    /// The same where more is known of records, by their names, than their files tell: that is noticed of them
+    /// instead, and where it is something else the study is another one.
+    ///
+    /// # Errors
+    /// As [`OpenStudy::open_followed`].
+    pub fn open_knowing(
+        plan_path: &Path,
+        known: &[(String, Vec<Notice>)],
+        engine: &Engine<'_>,
+    ) -> Result<Self, StudyError> {
         let plan_name = plan_path.display().to_string();
         let plan_bytes = read_at_most(plan_path, MAX_TEXT_BYTES as u64)?;
         let plan_text = String::from_utf8_lossy(&plan_bytes).into_owned();
@@ -92,10 +106,11 @@ impl OpenStudy {
             (portable(&plan.model), sha256_hex(&model_bytes)),
         ];
         let mut notices = Vec::new();
-        let loaded = match &plan.records {
+        let mut loaded = match &plan.records {
             Some(records) => load_all(&plan, records, folder, &in_plan, &mut notices, engine)?,
             None => own_record(&plan, &model_path, model_text.as_bytes(), &in_model)?,
         };
+        let beyond_files = know(&mut loaded, known);
         let mut records = Vec::new();
         let mut record_paths = Vec::new();
         let mut target = None;
@@ -122,7 +137,7 @@ impl OpenStudy {
             name if name == plan_name => in_plan(error),
             _ => in_model(error),
         })?;
-        let id = id(&inputs, &study);
+        let id = id(&inputs, &beyond_files, &study);
         let model_path = model_path.clone();
         let plan_path = plan_path.to_owned();
         Ok(Self {
@@ -144,6 +159,19 @@ struct Loaded {
     vertical_name: Option<String>,
     paths: RecordPaths,
     loaded: LoadedMotion,
+}
+
+/// Puts what is known of records in place of what their files tell; what rows then say otherwise, as text.
+fn know(records: &mut [Loaded], known: &[(String, Vec<Notice>)]) -> String {
+    let mut beyond_files = String::new();
+    for Loaded { name, loaded, .. } in records {
+        let Some((_, notices)) = known.iter().find(|(known, _)| known == name) else { continue };
+        if kinds(notices) != kinds(&loaded.warnings) {
+            beyond_files.push_str(&format!("{name} {}\n", kinds(notices).join(" ")));
+        }
+        loaded.loaded.warnings.clone_from(notices);
+    }
+    beyond_files
 }
 
 /// All records of a plan.
@@ -190,7 +218,7 @@ fn load_all(
     let all = engine.runs(files.len() + second.len(), load)?;
     let all = all.into_iter().collect::<Result<Vec<_>, FileError>>()?;
     let read: Vec<_> =
-        all.iter().map(|one| (one.paths.horizontal.as_path(), &one.loaded)).collect();
+        all.iter().map(|one| (one.paths.horizontal.as_path(), &one.loaded.loaded)).collect();
     let pairs = !records.second.is_empty();
     notices.extend(refuse_unfit(&read, records.channel.is_some(), pairs)?);
     Ok(all)
@@ -305,10 +333,15 @@ fn file_name(path: &Path) -> String {
     path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
+/// What rows say of notices.
+fn kinds(notices: &[Notice]) -> Vec<&'static str> {
+    notices.iter().map(|notice| notice.kind.name()).collect()
+}
+
 /// Hash of the version, of the inputs in their order, of the bounds of friction that are run, where the model
 /// has some, and of how pairs are run: an earlier version ran the nominal friction alone, and each component by
-/// itself.
-fn id(inputs: &[(String, String)], study: &Study) -> String {
+/// itself. What is known of records besides their files is hashed as well.
+fn id(inputs: &[(String, String)], beyond_files: &str, study: &Study) -> String {
     let mut text = format!("slipstick {}\n", env!("CARGO_PKG_VERSION"));
     // The plan's own name does not matter.
     for (index, (name, sha256)) in inputs.iter().enumerate() {
@@ -322,5 +355,6 @@ fn id(inputs: &[(String, String)], study: &Study) -> String {
     if study.is_in_plane() {
         text.push_str("pairs together\n");
     }
+    text.push_str(beyond_files);
     sha256_hex(text.as_bytes())
 }

@@ -82,6 +82,7 @@ class Assessment(Result):
 def read_suite(
     patterns: str | PathLike[str] | Iterable[str | PathLike[str]],
     *,
+    y: str | PathLike[str] | Iterable[str | PathLike[str]] = (),
     channel: str | None = None,
     units: str | None = None,
     dt: float | str | None = None,
@@ -93,6 +94,8 @@ def read_suite(
     ----------
     patterns
         Files, folders or patterns such as ``"suite/*.AT2"``.
+    y
+        The same for the components along y of motions in two horizontal directions, as many and in the same order.
     channel, units, dt
         As in ``read_record``, for all files.
     vertical
@@ -101,19 +104,21 @@ def read_suite(
     Returns
     -------
     dict
-        The motions by the stems of their files, or by their paths where stems repeat.
+        The motions by the stems of their files, or by their paths where stems repeat; of two by both,
+        ``"x + y"``.
 
     Raises
     ------
     RecordError
         For a file that is no record, with line and column.
+    InputError
+        For components that are not as many as the records.
     OSError
-        For a file that cannot be read, and a pattern that matches none.
+        For a file that cannot be read, a pattern that matches none, and components that are of no one record.
     """
+    along_y, up = texts_of(y), texts_of(vertical)
     return dict(
-        _core.read_suite(
-            texts_of(patterns), channel=channel, units=units, dt=dt, vertical=texts_of(vertical)
-        )
+        _core.read_suite(texts_of(patterns), y=along_y, channel=channel, units=units, dt=dt, vertical=up)
     )
 
 

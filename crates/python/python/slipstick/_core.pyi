@@ -250,7 +250,7 @@ def study(
     plan: str | PathLike[str] | Path,
     folder: str | PathLike[str] | Path,
     *,
-    names: list[tuple[str, str]] = ...,
+    motions: list[tuple[str, str, Motion]] = ...,
     shard: tuple[int, int] | None = None,
     jobs: int | None = None,
     progress: Callable[[int, int], object] | None = None,
@@ -282,6 +282,7 @@ class Assessment:
 def read_suite(
     patterns: list[str],
     *,
+    y: list[str] = ...,
     channel: str | None = None,
     units: str | None = None,
     dt: float | str | None = None,

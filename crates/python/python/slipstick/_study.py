@@ -225,11 +225,19 @@ class Plan:
         return records, records if self._in_two else self.second or {}
 
     @property
-    def _names(self) -> list[tuple[str, str]]:
-        """Names of the records by their files; of those in two directions that are run separately with their axes."""
+    def _named(self) -> list[tuple[str, str, _core.Motion]]:
+        """Files, names and motions of the records; names of components that are run separately have their axes."""
         axes = (" x", " y") if self._in_two and self.pairs == "separate" else ("", "")
         of = zip(("records", "second"), self._motions, axes, strict=True)
-        return [(_file(folder, name), name + axis) for folder, motions, axis in of for name in motions]
+        return [
+            (_file(folder, name), name + axis, motion)
+            for folder, motions, axis in of
+            for name, motion in motions.items()
+        ]
+
+    @property
+    def _names(self) -> list[tuple[str, str]]:
+        return [(file, name) for file, name, _ in self._named]
 
     @property
     def digest(self) -> str:
@@ -237,7 +245,8 @@ class Plan:
         import hashlib
         import json
 
-        return hashlib.sha256(json.dumps([_core.__version__, self.files]).encode()).hexdigest()
+        noticed = [motion.warnings for _, _, motion in self._named]
+        return hashlib.sha256(json.dumps([_core.__version__, self.files, noticed]).encode()).hexdigest()
 
     def write(self, folder: str | PathLike[str]) -> Path:
         """Write the files of the study and return the path of the plan, for ``slipstick study``."""
@@ -318,13 +327,14 @@ def study(
 
         path = plan.write(new_folder()) if isinstance(plan, Plan) else Path(plan)
         folder = new_folder() if out is None else Path(out)
-        names = plan._names if isinstance(plan, Plan) else []
+        named = plan._named if isinstance(plan, Plan) else []
         with _said_of(plan, path.parent):
-            done = _core.study(path, folder, names=names, jobs=jobs, progress=progress, force=force)
+            done = _core.study(path, folder, motions=named, jobs=jobs, progress=progress, force=force)
     table, summary = done.table, done.summary
     assert table is not None and summary is not None
     if done.failures:
         warn_of([("failed_runs", f"{done.failures} of {done.runs} runs have no answer: their status says why", True)])
+    names = plan._names if isinstance(plan, Plan) else []
     notices = [_by_name(notice, path.parent, names) for notice in done.notices]
     return Study(Table._of(table), Table._of(summary), done.runs, done.failures, notices)
 
@@ -347,8 +357,9 @@ def run_shard(
 
     with TemporaryDirectory(prefix="slipstick-") as folder:
         path = plan.write(folder) if isinstance(plan, Plan) else Path(plan)
+        named = plan._named if isinstance(plan, Plan) else []
         with _said_of(plan, path.parent):
-            return _core.study(path, Path(out), shard=shard, jobs=jobs).runs
+            return _core.study(path, Path(out), motions=named, shard=shard, jobs=jobs).runs
 
 
 #: The column of a record of a plan of values
