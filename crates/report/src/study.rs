@@ -147,7 +147,7 @@ fn level_unit(summary: &StudySummary, display: DisplayUnits) -> Unit {
 mod tests {
     use super::*;
 
-    fn row(level: u64, demand: &str) -> LevelSummary {
+    fn row(level: usize, demand: &str) -> LevelSummary {
         LevelSummary {
             level,
             value: Some(1.0 + level as f64),
