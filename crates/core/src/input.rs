@@ -8,7 +8,7 @@
 use crate::error::{ChoiceError, InputError, MotionError, Place};
 use crate::hash::sha256_hex;
 use crate::model::Model;
-use crate::response::Method;
+use crate::response::{DemandColumn, DemandOf, Method};
 
 mod build;
 mod edit;
@@ -102,6 +102,19 @@ impl Names {
     #[must_use]
     pub fn point(&self, point: usize) -> String {
         self.points.get(point.wrapping_sub(1)).cloned().unwrap_or_else(|| self.storey(point))
+    }
+
+    /// A demand in words, with the name of what it is of: `Roof peak acceleration`.
+    #[must_use]
+    pub fn title(&self, column: &DemandColumn) -> String {
+        let title = column.title();
+        match (column.demand.of, title.strip_prefix("Block")) {
+            (DemandOf::Storey | DemandOf::Point, _) => {
+                format!("{} {}", self.point(column.part), column.demand.words)
+            }
+            (_, Some(rest)) => format!("{}{rest}", self.block()),
+            _ => title,
+        }
     }
 }
 

@@ -4,6 +4,7 @@ use super::Study;
 use super::cases::tally;
 use super::engine::Engine;
 use crate::error::Stopped;
+use crate::input::Names;
 use crate::input::plan::Levels;
 use crate::numerics::sort;
 use crate::response::{DemandColumn, DemandKind};
@@ -58,6 +59,8 @@ pub struct StudySummary {
     pub measure: Option<(String, &'static str)>,
     /// Level by level, demand by demand; residuals without their sign.
     pub rows: Vec<LevelSummary>,
+    /// What the block, the storeys and the points are called.
+    pub names: Names,
     /// Kinds of warnings, each with the number of runs that gave it and the first of those.
     pub warned: Vec<(String, u64, u64)>,
 }
@@ -203,7 +206,8 @@ impl Study {
             Levels::Measure { measure, .. } => Some((measure.to_string(), measure.unit())),
             Levels::Factors(_) => None,
         };
-        Ok(StudySummary { name: name.to_owned(), measure, rows, warned })
+        let names = self.variation.names();
+        Ok(StudySummary { name: name.to_owned(), measure, rows, names, warned })
     }
 }
 
