@@ -362,6 +362,19 @@ impl Analysis {
         })
     }
 
+    /// Paths of the numbers that say how the thing is built that moves, each by itself, but for those that are 0.
+    #[must_use]
+    pub fn built(&self) -> Vec<&str> {
+        // The ratios of many storeys are one value.
+        let shared = |path: &str| self.model.storeys() > 1 && path.contains(".damping_ratio");
+        let of = |input: &Input<'_>| {
+            input.value.is_some_and(|value| value != 0.0)
+                && keys::MODEL.along(input.path).all(|key| key.built)
+                && !(input.path.starts_with("storey.") && shared(input.path))
+        };
+        self.inputs().filter(of).map(|input| input.path).collect()
+    }
+
     /// The model file's text anew, without comments, in the order of the manual. The motion is that
     /// of a record in a file beside it where `record` names one; else a made motion stays and a
     /// record, whose path is relative to the original file, is left out.
