@@ -6,7 +6,6 @@
 //! which a callback follows and may stop. Nothing here opens a file. Results are demands in SI;
 //! intensities are in the SI unit of their measure.
 
-pub mod cases;
 pub mod censored;
 pub mod code;
 pub mod derivative;
@@ -28,8 +27,9 @@ pub mod sweep;
 mod tests;
 
 pub use crate::error::ChoiceError;
-use crate::error::{CellError, FitError, InputError, MotionError, RunError, Stopped};
+use crate::error::{CellError, FitError, InputError, MotionError, Stopped};
 pub use crate::numerics::fractile::SHARES;
+pub use crate::study::FailedRun;
 
 /// What ends an analysis over a suite.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -60,38 +60,6 @@ pub enum AssessmentError {
     /// The callback that followed it stopped it.
     #[error(transparent)]
     Stopped(#[from] Stopped),
-}
-
-/// A run without an answer.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FailedRun {
-    /// Name of the record.
-    pub record: String,
-    /// Factor on the record.
-    pub scale: f64,
-    /// Its design in words, to stand after them; empty where there is one design.
-    pub design: String,
-    /// Why.
-    pub error: RunError,
-}
-
-impl core::fmt::Display for FailedRun {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        write!(f, "{}{}: {}", times(&self.record, self.scale), self.design, self.error)
-    }
-}
-
-/// A record times its factor, in words.
-fn times(record: &str, scale: f64) -> String {
-    if scale == 1.0 {
-        return record.to_owned();
-    }
-    // Four digits name a factor.
-    let short: f64 = format!("{scale:.3e}").parse().unwrap_or(scale);
-    match short.abs() {
-        1e-3..1e6 => format!("{record} × {short}"),
-        _ => format!("{record} × {short:e}"),
-    }
 }
 
 fn in_unit(unit: &str) -> String {

@@ -8,7 +8,7 @@
 use crate::error::{ChoiceError, InputError, MotionError, Place};
 use crate::hash::sha256_hex;
 use crate::model::Model;
-use crate::response::Method;
+use crate::response::{DemandColumn, DemandOf, Method};
 
 mod build;
 mod edit;
@@ -102,6 +102,19 @@ impl Names {
     #[must_use]
     pub fn point(&self, point: usize) -> String {
         self.points.get(point.wrapping_sub(1)).cloned().unwrap_or_else(|| self.storey(point))
+    }
+
+    /// A demand in words, with the name of what it is of: `Roof peak acceleration`.
+    #[must_use]
+    pub fn title(&self, column: &DemandColumn) -> String {
+        let title = column.title();
+        match (column.demand.of, title.strip_prefix("Block")) {
+            (DemandOf::Storey | DemandOf::Point, _) => {
+                format!("{} {}", self.point(column.part), column.demand.words)
+            }
+            (_, Some(rest)) => format!("{}{rest}", self.block()),
+            _ => title,
+        }
     }
 }
 
@@ -347,6 +360,19 @@ impl Analysis {
             value: self.values.number(&leaf.path),
             unit: leaf.unit,
         })
+    }
+
+    /// Paths of the numbers that say how the thing is built that moves, each by itself, but for those that are 0.
+    #[must_use]
+    pub fn built(&self) -> Vec<&str> {
+        // The ratios of many storeys are one value.
+        let shared = |path: &str| self.model.storeys() > 1 && path.contains(".damping_ratio");
+        let of = |input: &Input<'_>| {
+            input.value.is_some_and(|value| value != 0.0)
+                && keys::MODEL.along(input.path).all(|key| key.built)
+                && !(input.path.starts_with("storey.") && shared(input.path))
+        };
+        self.inputs().filter(of).map(|input| input.path).collect()
     }
 
     /// The model file's text anew, without comments, in the order of the manual. The motion is that

@@ -31,7 +31,7 @@ use crate::assessment::spectrum::{SpectrumRequest, SpectrumRun, run_spectrum};
 use crate::assessment::suite::{Recorded, Suite};
 use crate::assessment::{AssessmentError, refuse};
 use crate::error::{ChoiceError, MeasureError};
-use crate::input::{Analysis, Bound, FrictionBounds, Input, Override, dimension_of};
+use crate::input::{Analysis, Bound, FrictionBounds, Override, dimension_of};
 use crate::motion::intensity::LevelMeasure;
 use crate::notice::Notice;
 use crate::response::DemandColumn;
@@ -302,7 +302,7 @@ impl Request {
         let mut varied = Vec::new();
         let mut paths = self.listed("paths");
         if paths.is_empty() {
-            paths = moving(on.analysis);
+            paths = on.analysis.built();
         }
         for path in paths {
             let unit = dimension_of(path)?.map_or("", Dimension::si_unit);
@@ -505,40 +505,20 @@ fn limit(what: &str, text: &str, demand: &str) -> Result<f64, AssessmentError> {
     if value.is_finite() && value > 0.0 { Ok(value) } else { Err(refused("a limit > 0")) }
 }
 
-/// Keys of slider, block and structure that move what is built of them, each by itself: numbers other than 0, and no
-/// names, sizes for ratios, or bounds.
-fn moving(analysis: &Analysis) -> Vec<&str> {
-    const BUILT: [&str; 6] = ["slider", "block", "storey", "frame", "structure", "contents"];
-    const BESIDE: [&str; 4] =
-        ["slider.gap", "slider.bounds.", "structure.mode.", "structure.point."];
-    const SIZES: [&str; 3] = [".width", ".height", ".floor"];
-    // The ratios of many storeys are one value.
-    let several = analysis.model.storeys() > 1;
-    let moves = |Input { path, value, .. }: &Input<'_>| {
-        let beside = BESIDE.iter().any(|beside| path.starts_with(beside))
-            || SIZES.iter().any(|size| path.ends_with(size))
-            || several && path.starts_with("storey.") && path.ends_with(".damping_ratio");
-        let built = BUILT.contains(&path.split('.').next().unwrap_or_default());
-        built && !beside && value.is_some_and(|value| value != 0.0)
-    };
-    analysis.inputs().filter(moves).map(|input| input.path).collect()
-}
-
 #[cfg(test)]
 mod tests {
-    use super::*;
-
     #[test]
     fn what_moves_the_demands_is_derived_where_no_key_is_named() {
         let text = include_str!("../../../examples/frame-pendulum.toml");
-        let analysis = crate::input::parse("model.toml", text, &[]).unwrap();
-        let paths = moving(&analysis);
+        let text = text.replacen("[block]\n", "[block]\nwidth_y = \"3 m\"\n", 1);
+        let analysis = crate::input::parse("model.toml", &text, &[]).unwrap();
+        let paths = analysis.built();
         let first =
             ["block.mass", "slider.static_friction", "slider.kinetic_friction", "slider.radius"];
         assert_eq!(paths[..4], first);
         assert!(paths.contains(&"frame.period") && paths.contains(&"storey.5.mass"), "{paths:?}");
         let beside = |path: &&str| {
-            ["bounds", "height", "damping"].iter().any(|part| path.contains(part))
+            ["bounds", "height", "damping", "width"].iter().any(|part| path.contains(part))
                 || path.starts_with("motion")
         };
         assert!(!paths.iter().any(beside), "{paths:?}");

@@ -5,7 +5,7 @@
 //! the record: not on the runs before it, the thread it runs on or the part it belongs to. No
 //! history is kept.
 
-mod cases;
+pub(crate) mod cases;
 mod columns;
 mod design;
 pub mod engine;
@@ -15,7 +15,7 @@ mod rows;
 pub mod summary;
 mod verify;
 
-pub use cases::{Case, Cases};
+pub use cases::{Case, Cases, FailedRun, Ran};
 pub use design::Design;
 pub use records::Record;
 pub use rows::Row;
@@ -316,18 +316,18 @@ impl Study {
 
     /// The value of the measure at a level, in SI; `None` where levels are factors.
     #[must_use]
-    pub fn level(&self, level: u64) -> Option<f64> {
+    pub fn level(&self, level: usize) -> Option<f64> {
         match &self.levels {
             Levels::Factors(_) => None,
-            Levels::Measure { levels, .. } => levels.get(level as usize).copied(),
+            Levels::Measure { levels, .. } => levels.get(level).copied(),
         }
     }
 
     /// The factor of a level that is one; NaN where levels are values of a measure.
     #[must_use]
-    pub fn level_factor(&self, level: u64) -> f64 {
+    pub fn level_factor(&self, level: usize) -> f64 {
         match &self.levels {
-            Levels::Factors(factors) => factors.get(level as usize).copied().unwrap_or(f64::NAN),
+            Levels::Factors(factors) => factors.get(level).copied().unwrap_or(f64::NAN),
             Levels::Measure { .. } => f64::NAN,
         }
     }
@@ -355,8 +355,8 @@ impl Study {
 
     /// The bound of friction of a case.
     #[must_use]
-    pub fn bound(&self, case: Case) -> Bound {
-        self.bounds.get(case.bound as usize).copied().unwrap_or(Bound::NOMINAL)
+    pub fn bound(&self, case: &Case) -> Bound {
+        self.bounds.get(case.bound).copied().unwrap_or(Bound::NOMINAL)
     }
 
     /// The model's made motion: `sine`, `sweep` or `pulse`; empty where it has none.
@@ -366,11 +366,10 @@ impl Study {
         ["sine", "sweep", "pulse"].into_iter().find(is_made).unwrap_or("")
     }
 
-    /// The factor on the record of a case.
+    /// The case of a run.
     #[must_use]
-    pub fn factor(&self, case: Case) -> f64 {
-        let index = (case.record * self.cases.levels + case.level) as usize;
-        self.factors.get(index).copied().unwrap_or(1.0)
+    pub fn case(&self, run: u64) -> Case {
+        self.cases.case(run, &self.factors)
     }
 
     /// The angle by which a sample turns a pair of records, x towards y; `None` where it is not varied.
@@ -382,17 +381,17 @@ impl Study {
     ///
     /// # Errors
     /// None: the paths are known.
-    pub fn overrides(&self, case: Case) -> Result<Vec<String>, InputError> {
-        let overrides = self.variation.overrides(&self.design.values(case.sample))?;
+    pub fn overrides(&self, case: &Case) -> Result<Vec<String>, InputError> {
+        let overrides = self.variation.overrides(&self.design.values(case.design as u64))?;
         Ok(overrides.into_iter().map(|set| set.text().to_owned()).collect())
     }
 
     /// The model of an index below [`Cases::models`].
     fn sample(&self, index: u64) -> Sample {
-        let case = self.cases.case(index);
-        let values = self.design.values(case.sample);
+        let case = self.case(index);
+        let values = self.design.values(case.design as u64);
         let parts = self.variation.parts(&values).map_err(RunError::from);
-        let bound = self.bound(case);
+        let bound = self.bound(&case);
         let parts = parts.map(|parts| Parts { model: bound.of(&parts.model), ..parts });
         let highest_hz = parts.as_ref().map_or(0.0, |parts| notices::highest_hz(&parts.model));
         let of_model = |parts: &Parts| notices::suspicious(&parts.model);

@@ -46,7 +46,7 @@ pub fn table(summary: &StudySummary, display: DisplayUnits) -> String {
         let words = demand.demand.words;
         let name = match demand.demand.of.part() {
             None => words.to_owned(),
-            Some(of) => format!("{of}{} {words}", demand.part),
+            Some(_) => summary.names.title(&demand),
         };
         let _ = writeln!(text, "\n{}", unit.label(&name));
         let friction = |text: &str| if bounded { format!("  {text:<8}") } else { String::new() };
@@ -146,8 +146,9 @@ fn level_unit(summary: &StudySummary, display: DisplayUnits) -> Unit {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use slipstick::input::Names;
 
-    fn row(level: u64, demand: &str) -> LevelSummary {
+    fn row(level: usize, demand: &str) -> LevelSummary {
         LevelSummary {
             level,
             value: Some(1.0 + level as f64),
@@ -174,10 +175,12 @@ mod tests {
             row(1, "residual_sliding_displacement_m"),
         ];
         let measure = Some(("PGA".to_owned(), "m/s2"));
-        let summary = StudySummary { name: "Tank".to_owned(), measure, rows, warned: Vec::new() };
+        let names = Names { storeys: vec![None, Some("Deck".to_owned())], ..Names::default() };
+        let name = "Tank".to_owned();
+        let summary = StudySummary { name, measure, rows, names, warned: Vec::new() };
         let table = super::table(&summary, DisplayUnits::Si);
         assert!(table.contains("\nresidual sliding displacement (mm)\n"), "{table}");
-        assert!(table.contains("\nstorey2 peak drift (mm)\n"), "{table}");
+        assert!(table.contains("\nDeck peak drift (mm)\n"), "{table}");
         assert!(table.contains("0.102 g") && table.contains("-500.0"), "{table}");
         assert!(!table.contains("gap ratio"), "{table}");
         assert!(table.ends_with("\n2 runs failed: see the column status\n"), "{table}");

@@ -636,9 +636,8 @@ impl Planned {
     /// The runs as a table.
     fn table(&self, rows: &[f64]) -> Tabled {
         let rows: Vec<&[f64]> = rows.chunks_exact(self.width()).collect();
-        let cases: Vec<_> =
-            (0..rows.len() as u64).map(|run| self.study.cases().case(run)).collect();
-        let record = |case: &Case| match self.study.records().get(case.record as usize) {
+        let cases: Vec<Case> = (0..rows.len() as u64).map(|run| self.study.case(run)).collect();
+        let record = |case: &Case| match self.study.records().get(case.record) {
             Some(record) => record.name.clone(),
             None => self.study.made_motion().to_owned(),
         };
@@ -647,7 +646,7 @@ impl Planned {
         table.numbers("run", "", (0..rows.len()).map(|run| run as f64).collect());
         table.texts("record", cases.iter().map(record).collect());
         if self.study.has_bounds() {
-            let bound = |case: &Case| self.study.bound(*case).name.to_owned();
+            let bound = |case: &Case| self.study.bound(case).name.to_owned();
             table.texts("friction", cases.iter().map(bound).collect());
         }
         table.numbers("level", self.study.level_unit(), cases.iter().map(level).collect());
@@ -664,17 +663,18 @@ impl Planned {
     /// What makes a run by itself: `{record, scale, friction, set: [[path, value]]}`, without a record where the motion is
     /// made.
     pub fn run(&self, run: u64) -> Result<Json, Failure> {
-        let case = self.study.cases().case(run.min(self.study.runs().saturating_sub(1)));
-        let set = self.study.overrides(case).map_err(|error| Failure::input(&error, &self.text))?;
+        let case = self.study.case(run.min(self.study.runs().saturating_sub(1)));
+        let set =
+            self.study.overrides(&case).map_err(|error| Failure::input(&error, &self.text))?;
         let pair = |text: &String| {
             let (path, value) = text.split_once('=').unwrap_or((text, ""));
             texts([path, value].into_iter())
         };
-        let record = self.study.records().get(case.record as usize);
+        let record = self.study.records().get(case.record);
         Ok(Json::Object(vec![
             ("record", record.map_or(Json::Null, |record| record.name.as_str().into())),
-            ("scale", self.study.factor(case).into()),
-            ("friction", self.study.bound(case).name.into()),
+            ("scale", case.scale.into()),
+            ("friction", self.study.bound(&case).name.into()),
             ("set", Json::List(set.iter().map(pair).collect())),
         ]))
     }

@@ -18,7 +18,6 @@
 //!
 //! Of one record that is `2 k + 3` runs for `k` keys, and up to [`ANALYSES`] in all where steps are made smaller.
 
-use super::cases::{Case, Cases, Ran};
 use super::models::Models;
 use super::suite::{Scaling, Suite};
 use super::{AssessmentError, FailedRun, refuse};
@@ -31,6 +30,7 @@ use crate::response::{
     DemandColumn, DemandKind, EventKind, InDirections, Method, Response, demand_values,
 };
 use crate::solver;
+use crate::study::cases::{Case, Ran, Runs};
 use crate::study::engine::Engine;
 use crate::table::{Cells, Column, Table};
 
@@ -196,14 +196,15 @@ pub fn run_derivatives(
     let values: Vec<f64> = keys.iter().map(|key| key.value).collect();
     let base = models.parts(&values)?;
     let factors = suite.scaled(request.scaling, engine)?.factors;
-    let on = |i: usize| on_base(&base, suite, (i, factors[i]), &columns, engine);
-    let bases = engine.runs(factors.len(), on)?;
+    let cases = Case::every(1, 1, &factors);
+    let on = |i: usize| Ran::of(cases[i], on_base(&base, suite, &cases[i], &columns, engine));
+    let bases = engine.runs(cases.len(), on)?;
     let mut of = Work {
         models,
         suite,
         factors: &factors,
         columns: &columns,
-        cases: Cases::new(suite, &factors, base.tail_s, engine)?,
+        runs: suite.runs(&factors, base.tail_s, engine)?,
         failures: Vec::new(),
         analyses: vec![1; factors.len()],
     };
@@ -239,7 +240,7 @@ pub fn run_derivatives(
     }
     let mut derivatives = Vec::new();
     for (record, (base, slopes)) in bases.iter().zip(&slopes).enumerate() {
-        let Ok(base) = base else { continue };
+        let Ok(base) = &base.kept else { continue };
         for (key, slopes) in slopes {
             for demand in 0..columns.len() {
                 let [first, second] = slopes.slopes[demand];
@@ -262,26 +263,17 @@ pub fn run_derivatives(
     let records = bases.iter().enumerate().map(|(i, base)| OfRecord {
         name: suite.records[i].name.clone(),
         scale: factors[i],
-        holds: base.as_ref().ok().map(|base| base.holds),
-        closest_call: base.as_ref().ok().and_then(|base| base.closest_call),
+        holds: base.kept.as_ref().ok().map(|base| base.holds),
+        closest_call: base.kept.as_ref().ok().and_then(|base| base.closest_call),
         analyses: analyses[i],
     });
     let records: Vec<OfRecord> = records.collect();
-    for (record, base) in records.iter().zip(&bases) {
-        if let Err(error) = base {
-            let (scale, error) = (record.scale, error.clone());
-            failures.push(FailedRun {
-                record: record.name.clone(),
-                scale,
-                design: String::new(),
-                error,
-            });
-        }
-    }
+    failures.extend(suite.in_words(&[], &|_| String::new()).failures(&bases));
     let demands = models.columns();
     let demands: Vec<DemandColumn> = columns.iter().map(|&column| demands[column]).collect();
     let table = table(&keys, &demands, &records, &derivatives);
-    let warnings = bases.iter().flatten().flat_map(|base| base.noticed.iter().cloned()).collect();
+    let answered = bases.iter().flat_map(|base| &base.kept);
+    let warnings = answered.flat_map(|base| base.noticed.iter().cloned()).collect();
     let runs = analyses.iter().sum();
     Ok(DerivativeRun { keys, demands, records, derivatives, failures, warnings, runs, table })
 }
@@ -321,11 +313,11 @@ struct Base {
 fn on_base(
     base: &Parts,
     suite: &Suite,
-    (record, factor): (usize, f64),
+    case: &Case,
     columns: &[usize],
     engine: &Engine<'_>,
 ) -> Result<Base, RunError> {
-    let motion: GroundMotion = suite.motion_of(record, factor, base)?;
+    let motion = suite.motion(case.record, case.scale, base.tail_s)?;
     let judged = engine.watch(|go_on| {
         let response = solver::solve_while(&base.model, &motion, Method::Exact, go_on)?;
         let certificate = check::check_while(&base.model, &motion, &response, go_on)?;
@@ -351,10 +343,10 @@ fn scale_of(key: &Key, base: &Parts) -> f64 {
 }
 
 /// The step over the value that balances rounding and curvature: the root of the usual relative rounding.
-fn relative_step(rounding: &[Vec<f64>], bases: &[Result<Base, RunError>]) -> f64 {
+fn relative_step(rounding: &[Vec<f64>], bases: &[Ran<Base>]) -> f64 {
     let mut all = Vec::new();
     for (rounding, base) in rounding.iter().zip(bases) {
-        let Ok(base) = base else { continue };
+        let Ok(base) = &base.kept else { continue };
         let ratios = rounding.iter().zip(&base.sample.demands).map(|(r, f)| r / f.abs());
         all.extend(ratios.filter(|ratio| ratio.is_finite()));
     }
@@ -368,39 +360,32 @@ struct Work<'a> {
     suite: &'a Suite,
     factors: &'a [f64],
     columns: &'a [usize],
-    cases: Cases<'a>,
+    runs: Runs<'a>,
     failures: Vec<FailedRun>,
     /// Runs made on each record.
     analyses: Vec<u64>,
 }
 
 impl Work<'_> {
-    /// Samples of designs on every record: design by design.
+    /// Samples of designs, each on every record.
     fn run(
         &mut self,
         designs: &[Result<Parts, RunError>],
-    ) -> Result<Vec<Vec<Result<Sample, RunError>>>, AssessmentError> {
-        let records = self.factors.len();
-        let case = |i: usize| {
-            let (design, record) = (i / records, i % records);
-            Case { design, record, scale: self.factors[record] }
-        };
-        let cases: Vec<Case> = (0..designs.len() * records).map(case).collect();
-        let columns = self.columns;
-        let ran: Vec<Ran<Sample>> =
-            self.cases.run(designs, &cases, |_, response, _| Sample::of(response, columns))?;
+    ) -> Result<Vec<Ran<Sample>>, AssessmentError> {
         for count in &mut self.analyses {
             *count += designs.len() as u64;
         }
-        let kept: Vec<_> = ran.into_iter().map(|ran| ran.kept).collect();
-        Ok(kept.chunks(records.max(1)).map(<[_]>::to_vec).collect())
+        let (cases, columns) = (Case::every(designs.len(), 1, self.factors), self.columns);
+        let sample =
+            |_: &Case, response: &Response, _: &GroundMotion| Sample::of(response, columns);
+        Ok(self.runs.all(&cases, |case| &designs[case.design], sample)?)
     }
 
     /// The rounding of every demand on every record.
     fn rounding(
         &mut self,
         values: &[f64],
-        bases: &[Result<Base, RunError>],
+        bases: &[Ran<Base>],
     ) -> Result<Vec<Vec<f64>>, AssessmentError> {
         let moved = |sign: f64| {
             let values: Vec<f64> = values.iter().map(|x| x * (1.0 + sign * DIGITS)).collect();
@@ -408,11 +393,12 @@ impl Work<'_> {
         };
         let designs = [1.0, -1.0].map(moved);
         let ran = self.run(&designs)?;
-        let of_record = |(record, base): (usize, &Result<Base, RunError>)| {
-            let Ok(base) = base else { return vec![0.0; self.columns.len()] };
+        let of_record = |(record, base): (usize, &Ran<Base>)| {
+            let Ok(base) = &base.kept else { return vec![0.0; self.columns.len()] };
             let of = |demand: usize| {
                 let f = base.sample.demands[demand];
-                let probes = ran.iter().filter_map(|of| of[record].as_ref().ok());
+                let probes = ran.iter().filter(|ran| ran.case.record == record);
+                let probes = probes.filter_map(|ran| ran.kept.as_ref().ok());
                 let change = |sample: &Sample| (sample.demands[demand] - f).abs();
                 let least = 2.0 * f64::EPSILON * f.abs();
                 probes.map(change).filter(|c| c.is_finite()).fold(least, f64::max)
@@ -428,30 +414,26 @@ impl Work<'_> {
         keys: &[usize],
         values: &[f64],
         steps: &[f64],
-        bases: &[Result<Base, RunError>],
+        bases: &[Ran<Base>],
     ) -> Result<Vec<Vec<(usize, Slopes)>>, AssessmentError> {
         let stencils: Vec<Stencil> =
             keys.iter().zip(steps).map(|(key, step)| self.stencil(*key, values, *step)).collect();
         let designs: Vec<_> = stencils.iter().flat_map(|of| of.models.iter().cloned()).collect();
         let ran = self.run(&designs)?;
+        let axes = self.models.grid().axes();
+        let moved =
+            |design: usize| format!(", {} moved by a step", axes[stencils[design / 2].key].path);
+        let answered = ran.iter().filter(|ran| bases[ran.case.record].kept.is_ok());
+        self.failures.extend(self.suite.in_words(&[], &moved).failures(answered));
         let mut all = Vec::with_capacity(bases.len());
         for (record, base) in bases.iter().enumerate() {
-            let Ok(base) = base else {
+            let Ok(base) = &base.kept else {
                 all.push(Vec::new());
                 continue;
             };
             let mut of_record = Vec::with_capacity(stencils.len());
             for (i, stencil) in stencils.iter().enumerate() {
-                let two = [&ran[2 * i][record], &ran[2 * i + 1][record]];
-                for error in two.iter().filter_map(|sample| sample.as_ref().err()) {
-                    let path = &self.models.grid().axes()[stencil.key].path;
-                    self.failures.push(FailedRun {
-                        record: self.suite.records[record].name.clone(),
-                        scale: self.factors[record],
-                        design: format!(", {path} moved by a step"),
-                        error: error.clone(),
-                    });
-                }
+                let two = [2 * i, 2 * i + 1].map(|i| &ran[i * bases.len() + record].kept);
                 let x = values[stencil.key];
                 of_record.push((stencil.key, slopes(x, stencil.at, &base.sample, two)));
             }

@@ -13,7 +13,6 @@
 //! is dropped when its bound of displacement is beyond the gap, or when a design of the front is
 //! better than both bounds. So the front equals that of the full grid, run for run.
 
-use super::cases::{Case, Cases, Ran, failures, noticed};
 use super::grid::Axis;
 use super::models::Models;
 use super::proportion::Proportion;
@@ -21,12 +20,13 @@ use super::sensitivity::{self, Index};
 use super::suite::{Scaling, Suite};
 use super::{AssessmentError, FailedRun};
 use crate::error::{FitError, RunError, Stopped};
-use crate::input::Parts;
+use crate::input::{Bound, Parts};
 use crate::notice::Notice;
 use crate::numerics::fractile::{held_by, needed, sorted};
 use crate::numerics::sort;
 use crate::numerics::unit_points;
 use crate::response::demand_values;
+use crate::study::cases::{Case, Ran, Runs};
 use crate::study::engine::Engine;
 use crate::table::Table;
 
@@ -376,24 +376,32 @@ pub fn run_design(
     let parts = models.all(records, engine)?;
     let mut ran: Vec<Ran<Demand>> = Vec::new();
     let found = search(&target, grid.len(), records, |pairs: &[(usize, usize)]| {
-        let runs = runner.pairs(pairs, &parts)?;
+        let case = |&(design, record): &(usize, usize)| Case {
+            design,
+            record,
+            scale: runner.factors[record],
+            ..Case::default()
+        };
+        let runs = runner.run(&pairs.iter().map(case).collect::<Vec<_>>(), &parts)?;
         let demands = demands(&runs);
         ran.extend(runs);
         Ok::<_, AssessmentError>(demands)
     })?;
     let label = |design: usize| grid.label(design);
-    let (mut failed, mut warnings) = (failures(&ran, suite, label), noticed(&ran, suite, label));
+    let in_words = suite.in_words(&[], &label);
+    let (mut failed, mut warnings) = (in_words.failures(&ran), in_words.noticed(&ran));
     let bounded = match request.bounds {
         None => None,
         Some(factors) => {
             let designs: Vec<usize> =
                 found.front.iter().chain(&found.nearest).map(|point| point.design).collect();
             let (bounded, ran) = runner.bounded(&designs, &parts, factors, &target)?;
-            let label = |of: usize| {
-                format!("{}, friction × {}", grid.label(designs[of / 2]), factors[of % 2])
-            };
-            failed.extend(failures(&ran, suite, label));
-            warnings.extend(noticed(&ran, suite, label));
+            let bounds = ["lower", "upper"].into_iter().zip(factors);
+            let bounds = bounds.map(|(name, friction_factor)| Bound { name, friction_factor });
+            let bounds: Vec<Bound> = bounds.collect();
+            let in_words = suite.in_words(&bounds, &label);
+            failed.extend(in_words.failures(&ran));
+            warnings.extend(in_words.noticed(&ran));
             Some(bounded)
         }
     };
@@ -458,7 +466,7 @@ struct Runner<'a> {
     models: &'a Models,
     engine: &'a Engine<'a>,
     factors: Vec<f64>,
-    cases: Cases<'a>,
+    runs: Runs<'a>,
     displacement: usize,
     acceleration: usize,
 }
@@ -472,43 +480,38 @@ impl<'a> Runner<'a> {
         Ok(Self {
             displacement: models.column("peak_sliding_displacement_m")?,
             acceleration: models.column(request.acceleration)?,
-            cases: Cases::new(suite, &factors, tail_s, engine)?,
+            runs: suite.runs(&factors, tail_s, engine)?,
             models,
             engine,
             factors,
         })
     }
 
-    /// Runs of pairs (design, record), in their order; those of one design stand together.
-    fn pairs(
+    /// Runs of cases of these designs, in their order; those of one design stand together.
+    fn run(
         &self,
-        pairs: &[(usize, usize)],
-        parts: &[Result<Parts, RunError>],
+        cases: &[Case],
+        designs: &[Result<Parts, RunError>],
     ) -> Result<Vec<Ran<Demand>>, Stopped> {
-        let case = |&(design, record): &(usize, usize)| {
-            let scale = self.factors[record];
-            Case { design, record, scale }
-        };
-        let cases: Vec<Case> = pairs.iter().map(case).collect();
-        self.cases.run(parts, &cases, |_, response, _| {
-            let values = demand_values(&response.demands);
-            Demand {
-                displacement_m: values[self.displacement],
-                acceleration_m_per_s2: values[self.acceleration],
-            }
-        })
+        self.runs.all(
+            cases,
+            |case| &designs[case.design],
+            |_, response, _| {
+                let values = demand_values(&response.demands);
+                Demand {
+                    displacement_m: values[self.displacement],
+                    acceleration_m_per_s2: values[self.acceleration],
+                }
+            },
+        )
     }
 
     /// Every one of some designs on every record, the records fastest.
     fn all(&self, parts: &[Result<Parts, RunError>]) -> Result<Vec<Ran<Demand>>, Stopped> {
-        let records = 0..self.factors.len();
-        let of = |design| records.clone().map(move |record| (design, record));
-        let pairs: Vec<(usize, usize)> = (0..parts.len()).flat_map(of).collect();
-        self.pairs(&pairs, parts)
+        self.run(&Case::every(parts.len(), 1, &self.factors), parts)
     }
 
-    /// Figures of designs with friction times the lower and the upper factor, and those runs; `designs[i]`
-    /// is run as the designs `2 i` and `2 i + 1`.
+    /// Figures of designs with friction times the lower and the upper factor, and those runs.
     fn bounded(
         &self,
         designs: &[usize],
@@ -521,7 +524,10 @@ impl<'a> Runner<'a> {
             Ok(Parts { model: parts.model.with_friction_times(factor)?, ..parts.clone() })
         };
         let both = designs.iter().flat_map(|design| factors.map(|factor| (*design, factor)));
-        let ran = self.all(&both.map(with).collect::<Vec<_>>())?;
+        let mut ran = self.all(&both.map(with).collect::<Vec<_>>())?;
+        for Ran { case, .. } in &mut ran {
+            (case.design, case.bound) = (designs[case.design / 2], case.design % 2);
+        }
         let of_bounds = demands(&ran);
         let of_bounds: Vec<&[Demand]> = of_bounds.chunks(self.factors.len()).collect();
         let bounded = |(pair, &design): (&[&[Demand]], &usize)| {

@@ -19,6 +19,7 @@ use crate::response::{
     DemandColumn, DemandShape, Demands, Method, Response, flat_geometry, struck,
 };
 use crate::study::Record;
+use crate::study::cases::{Case, Ran, status};
 use crate::study::engine::Engine;
 use crate::table::{Cells, Column, Table};
 
@@ -241,18 +242,21 @@ pub fn run_histories(
         let bounds = bounds(model.analysis);
         // Record by record, each with every bound.
         let cases = factors.len() * bounds.len();
-        let case = |i: usize| (i / bounds.len(), &bounds[i % bounds.len()]);
+        let case = |i: usize| {
+            let (record, bound) = (i / bounds.len(), i % bounds.len());
+            Case { record, bound, scale: factors[record], ..Case::default() }
+        };
         let run = |i: usize| {
-            let (record, bound) = case(i);
-            let with = (factors[record], bound);
-            let mut kept = Kept::of(bound, with_bound(model, record, with, engine)?);
-            kept.alone = alone::of(model, record, with, engine).ok().flatten();
-            Ok(kept)
+            let (case, bound) = (case(i), &bounds[i % bounds.len()]);
+            let kept = with_bound(model, &case, bound, engine).map(|judged| {
+                let alone = alone::of(model, &case, bound, engine).ok().flatten();
+                Kept { alone, ..Kept::of(bound, judged) }
+            });
+            Ran::of(case, kept)
         };
         let mut ran = engine.runs(cases, run)?.into_iter();
-        let on = |(i, scale): (usize, &f64)| {
-            on_record(model, i, *scale, &bounds, ran.by_ref().take(bounds.len()))
-        };
+        let on =
+            |with: (usize, &f64)| on_record(model, with, &bounds, ran.by_ref().take(bounds.len()));
         let records = factors.iter().enumerate().map(on).collect();
         let slider = model.analysis.model.slider();
         let mut of_model = ModelHistories {
@@ -333,32 +337,28 @@ impl Kept {
 /// The runs of a record, one a bound of friction.
 fn on_record(
     model: &ModelOn<'_>,
-    record: usize,
-    scale: f64,
+    (record, scale): (usize, &f64),
     bounds: &[Bound],
-    ran: impl Iterator<Item = Result<Kept, RunError>>,
+    ran: impl Iterator<Item = Ran<Kept>>,
 ) -> OnRecord {
+    let several = if bounds.len() > 1 { bounds } else { &[] };
+    let in_words = model.suite.in_words(several, &|_| String::new());
     let Record { name, motion, origin, notices, .. } = &model.suite.records[record];
     let mut on = OnRecord {
         record: name.clone(),
         pair: model.suite.pair_name(record).to_owned(),
         origin: origin.clone(),
-        scale,
+        scale: *scale,
         pga_m_per_s2: scale.abs() * motion.figures().pga_m_per_s2,
         runs: Vec::new(),
         alone: Vec::new(),
         sliding: [Vec::new(), Vec::new()],
         notices: notices.clone(),
     };
-    for (bound, run) in bounds.iter().zip(ran) {
-        let design = match bounds.len() {
-            1 => String::new(),
-            _ => format!(", {} friction", bound.name),
-        };
-        let failed =
-            |error| FailedRun { record: name.clone(), scale, design: design.clone(), error };
-        on.alone.push(run.as_ref().ok().and_then(|kept| kept.alone));
-        let run = run.map_err(failed).map(|kept| on.take(bound, bounds.len() > 1, kept));
+    for (bound, Ran { case, kept, .. }) in bounds.iter().zip(ran) {
+        on.alone.push(kept.as_ref().ok().and_then(|kept| kept.alone));
+        let run = kept.map_err(|error| in_words.failed(&case, &error));
+        let run = run.map(|kept| on.take(bound, bounds.len() > 1, kept));
         on.runs.push(run);
     }
     on
@@ -367,11 +367,11 @@ fn on_record(
 /// The run of a record with a bound of friction, with its history and its certificate.
 fn with_bound(
     model: &ModelOn<'_>,
-    record: usize,
-    (scale, bound): (f64, &Bound),
+    case: &Case,
+    bound: &Bound,
     engine: &Engine<'_>,
 ) -> Result<(Job, Judged), RunError> {
-    let motion = model.suite.motion(record, scale, 0.0)?;
+    let motion = model.suite.motion(case.record, case.scale, 0.0)?;
     judged(model.analysis, motion, bound, engine)
 }
 
@@ -436,8 +436,8 @@ fn governing_history(
     let bound = of.governing_bound(&peak)?;
     let sizes = of.sizes(&peak, bound);
     let record = (0..sizes.len()).reduce(|a, b| if sizes[b] > sizes[a] { b } else { a })?;
-    let (_, judged) =
-        with_bound(model, record, (of.records[record].scale, &of.bounds[bound]), engine).ok()?;
+    let case = Case { record, bound, scale: of.records[record].scale, ..Case::default() };
+    let (_, judged) = with_bound(model, &case, &of.bounds[bound], engine).ok()?;
     Some((record, bound, sliding(&judged.response)?))
 }
 
@@ -480,10 +480,7 @@ fn table_of_runs(models: &[ModelHistories], shape: DemandShape) -> Table {
         }
     }
     let status = |(_, on, i): &(_, &OnRecord, usize)| {
-        on.runs[*i]
-            .as_ref()
-            .err()
-            .map_or_else(|| "ok".to_owned(), |failed| failed.error.to_string())
+        status(on.runs[*i].as_ref().err().map(|failed| &failed.error))
     };
     table.texts("status", rows.iter().map(status).collect());
     table

@@ -5,11 +5,9 @@
 //! intensity: a curve may cross the limit, come back below it (they call it resurrection) and cross
 //! again. The capacity of a record is its **first** crossing; what comes back is told, not used.
 
-use super::cases::{Case, Cases, OnDesign, Ran, failures, noticed};
 use super::fragility::{Capacity, Fragility};
 use super::models::Models;
 use super::observed::{Averaged, DesignGroup, FRICTION, design_groups};
-use super::spectrum::status;
 use super::suite::Suite;
 use super::{AssessmentError, FailedRun, refuse};
 use crate::error::{FitError, RunError, Stopped};
@@ -21,6 +19,7 @@ use crate::numerics::fractile;
 use crate::numerics::sort;
 use crate::response::{Response, demand_values};
 use crate::study::Record;
+use crate::study::cases::{Case, OneThread, Ran, status};
 use crate::study::engine::Engine;
 use crate::table::{Cells, Column, Table};
 
@@ -323,23 +322,25 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
     kept.sort_unstable();
     let unscaled = suite.measure(measure, engine)?;
     let clusters = suite.clusters();
-    let parts = kept.iter().map(|&design| designs.parts(design));
-    let parts = parts.collect::<Result<Vec<_>, AssessmentError>>()?;
-    let parts: Vec<Result<Parts, RunError>> = parts.into_iter().map(Ok).collect();
-    let cases = Cases::new(suite, &[], 0.0, engine)?;
+    let parts = kept.iter().map(|&design| Ok(Ok(designs.parts(design)?)));
+    let parts = parts.collect::<Result<Vec<Result<Parts, RunError>>, AssessmentError>>()?;
+    let all_runs = suite.runs(&[], 0.0, engine)?;
+    let design = |case: &Case| &parts[kept.partition_point(|&of| of < designs.number(case))];
     let keep = |_: &Case, response: &Response, _: &GroundMotion| demand_values(&response.demands);
     let records = suite.records.len();
     let curves_count = kept.len() * records;
     // Curve `i` is that of the record `i % records` under the design `i / records` of those kept.
-    let case = |curve: usize, level: f64| {
-        let (design, record) = (curve / records, curve % records);
-        Case { design, record, scale: level / unscaled[record] }
+    let case = |curve: usize, (level, value): (usize, f64)| {
+        let record = curve % records;
+        let (design, bound) = designs.split(kept[curve / records]);
+        Case { record, level, design, bound, scale: value / unscaled[record] }
     };
     let ran: Vec<Vec<(f64, Ran<Vec<f64>>)>> = match (&request.levels, &hunt) {
         (IdaLevels::Fixed(levels), _) => {
-            let of = |curve| levels.iter().map(move |&level| case(curve, level));
+            let of =
+                |curve| levels.iter().copied().enumerate().map(move |level| case(curve, level));
             let all: Vec<Case> = (0..curves_count).flat_map(of).collect();
-            let mut ran = cases.run(&parts, &all, keep)?.into_iter();
+            let mut ran = all_runs.all(&all, design, keep)?.into_iter();
             let curve = |_| levels.iter().copied().zip(ran.by_ref()).collect();
             (0..curves_count).map(curve).collect()
         }
@@ -347,9 +348,10 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
             engine.plan(curves_count as u64 * RUNS_OF_A_HUNT);
             engine.map(curves_count, |curve| {
                 let mut runs: Vec<(f64, Ran<Vec<f64>>)> = Vec::new();
-                let mut design = OnDesign::new(&cases, &parts[curve / records]);
+                let mut thread = OneThread::new(&all_runs);
+                let parts = &parts[curve / records];
                 hunt.try_run(|level| {
-                    let ran = design.run(case(curve, level), keep);
+                    let ran = thread.run(case(curve, (0, level)), (parts, None), keep);
                     let demand = ran.kept.as_ref().map_or(f64::NAN, |values| values[column]);
                     runs.push((level, ran));
                     engine.done(1)?;
@@ -371,10 +373,9 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
     };
     let curves: Vec<Curve> = ran.iter().map(curve).collect();
     let (levels, flat): (Vec<f64>, Vec<Ran<Vec<f64>>>) = ran.into_iter().flatten().unzip();
-    let all_varied = Averaged { paths: designs.paths(), designs: kept.len() };
-    let label = |design: usize| designs.label(kept[design], &all_varied);
-    let failures = failures(&flat, suite, label);
-    let warnings = noticed(&flat, suite, label);
+    let label = |design: usize| models.grid().label(design);
+    let in_words = suite.in_words(request.bounds, &label);
+    let (failures, warnings) = (in_words.failures(&flat), in_words.noticed(&flat));
     let record = |curve: usize| &suite.records[curve % records].name;
     let group = |group: DesignGroup| {
         let DesignGroup { value, text, designs: of_group, averaged } = group;
@@ -411,13 +412,13 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
     rows.texts("level_choice", vec![choice.to_owned(); flat.len()]);
     rows.numbers("level", measure.unit(), levels);
     rows.numbers("scale", "", flat.iter().map(|ran| ran.case.scale).collect());
-    let of_runs: Vec<usize> = flat.iter().map(|ran| kept[ran.case.design]).collect();
+    let of_runs: Vec<usize> = flat.iter().map(|ran| designs.number(&ran.case)).collect();
     rows.columns.extend(designs.table(&of_runs).columns);
     for (i, column) in models.columns().iter().enumerate() {
         let of = |ran: &Ran<Vec<f64>>| ran.kept.as_ref().map_or(f64::NAN, |values| values[i]);
         rows.numbers(&column.name(), column.unit(), flat.iter().map(of).collect());
     }
-    rows.texts("status", flat.iter().map(|ran| status(&ran.kept)).collect());
+    rows.texts("status", flat.iter().map(|ran| status(ran.kept.as_ref().err())).collect());
     let by = by.map(|by| (by.to_owned(), by_unit));
     Ok(IdaRun { by, groups, failures, warnings, rows, capacities })
 }
@@ -452,22 +453,21 @@ impl<'a> Designs<'a> {
         table
     }
 
-    /// The place in the grid of a design, and its bound.
-    fn split(&self, design: usize) -> (usize, Option<&Bound>) {
+    /// The place in the grid of a design, and the number of its bound.
+    fn split(&self, design: usize) -> (usize, usize) {
         let bounds = self.bounds.len().max(1);
-        (design / bounds, self.bounds.get(design % bounds))
+        (design / bounds, design % bounds)
     }
 
-    /// Everything that tells designs apart.
-    fn paths(&self) -> Vec<String> {
-        let axes = self.models.grid().axes().iter().map(|axis| axis.path.clone());
-        axes.chain([FRICTION.to_owned()]).collect()
+    /// The number of a case's design.
+    fn number(&self, case: &Case) -> usize {
+        case.design * self.bounds.len().max(1) + case.bound
     }
 
     fn parts(&self, design: usize) -> Result<Parts, AssessmentError> {
         let (place, bound) = self.split(design);
         let mut parts = self.models.parts(&self.models.grid().values(place))?;
-        if let Some(bound) = bound {
+        if let Some(bound) = self.bounds.get(bound) {
             parts.model = bound.of(&parts.model);
         }
         Ok(parts)
@@ -482,8 +482,8 @@ impl<'a> Designs<'a> {
             table.numbers(&axis.path, &axis.unit, designs.iter().map(value).collect());
         }
         if !self.bounds.is_empty() {
-            let name = |design: &usize| self.split(*design).1.map_or("", |bound| bound.name);
-            let names = designs.iter().map(|design| name(design).to_owned()).collect();
+            let name = |design: &usize| self.bounds[self.split(*design).1].name.to_owned();
+            let names = designs.iter().map(name).collect();
             table.texts(FRICTION, names);
         }
         table
@@ -498,6 +498,7 @@ impl<'a> Designs<'a> {
         for (axis, value) in values.filter(|(axis, _)| averaged.paths.contains(&axis.path)) {
             label.push_str(format!(", {value} {}", axis.unit).trim_end());
         }
+        let bound = self.bounds.get(bound);
         if let Some(bound) = bound.filter(|_| averaged.paths.iter().any(|path| path == FRICTION)) {
             label.push_str(&format!(", {}", bound.name));
         }

@@ -3,7 +3,6 @@
 
 use core::ops::ControlFlow;
 
-use super::cases::{Case, Cases, Ran, failures, noticed};
 use super::models::Models;
 use super::suite::{Scaling, Suite};
 use super::{AssessmentError, FailedRun, refuse};
@@ -13,8 +12,9 @@ use crate::model::{Block, InitialState, Model};
 use crate::motion::GroundMotion;
 use crate::notice::Notice;
 use crate::numerics::fractile::fractiles;
-use crate::response::{DemandColumn, demand_values};
+use crate::response::{DemandColumn, Response, demand_values};
 use crate::study::Record;
+use crate::study::cases::{Case, Ran, status};
 use crate::study::engine::Engine;
 use crate::table::Table;
 
@@ -205,11 +205,13 @@ pub fn run_spectrum(
     let peak = |motion: &GroundMotion| {
         motion.horizontal_m_per_s2().iter().fold(0.0, |peak: f64, a| peak.max(a.abs()))
     };
-    let cases = Cases::new(suite, &factors, tail_s(&parts), engine)?;
-    let runs = cases.run(&parts, &all_cases(parts.len(), &factors), |_, response, motion| Run {
+    let cases = Case::every(grid.len(), bounds.len(), &factors);
+    let design = |case: &Case| &parts[case.bound * grid.len() + case.design];
+    let keep = |_: &Case, response: &Response, motion: &GroundMotion| Run {
         demands: demand_values(&response.demands),
         table: peak(motion),
-    })?;
+    };
+    let runs = suite.runs(&factors, tail_s(&parts), engine)?.all(&cases, design, keep)?;
     let fixed = match models.shape().storeys + models.shape().points {
         0 => vec![f64::NAN; runs.len()],
         _ => on_fixed_base(&parts, suite, &factors, engine)?,
@@ -273,13 +275,9 @@ pub fn run_spectrum(
             intervals_above(&axis.values, &median, 1.0)
         })
         .collect();
-    let label = |design: usize| {
-        let bound = request.bounds.get(design / grid.len());
-        let bound = bound.map_or(String::new(), |bound| format!(", {} friction", bound.name));
-        format!("{}{bound}", grid.label(design % grid.len()))
-    };
-    let failures = failures(&runs, suite, label);
-    let warnings = noticed(&runs, suite, label);
+    let label = |design: usize| grid.label(design);
+    let in_words = suite.in_words(request.bounds, &label);
+    let (failures, warnings) = (in_words.failures(&runs), in_words.noticed(&runs));
 
     let mut table = Table::default();
     let coordinates = |table: &mut Table, repeat: usize| {
@@ -317,7 +315,7 @@ pub fn run_spectrum(
     for (k, key) in ratio_keys.iter().enumerate() {
         rows.numbers(key, "", (0..runs.len()).map(|run| value(run, columns.len() + k)).collect());
     }
-    rows.texts("status", runs.iter().map(|ran| status(&ran.kept)).collect());
+    rows.texts("status", runs.iter().map(|ran| status(ran.kept.as_ref().err())).collect());
     Ok(SpectrumRun {
         over: axis.path.clone(),
         unit: axis.unit.clone(),
@@ -337,11 +335,6 @@ pub fn run_spectrum(
         table,
         rows,
     })
-}
-
-/// What the column of that name says of a run: `ok`, or why it has no answer.
-pub(super) fn status<T>(run: &Result<T, RunError>) -> String {
-    run.as_ref().err().map_or_else(|| "ok".to_owned(), RunError::to_string)
 }
 
 /// The peak of the roof of the same structures on a fixed base, for each design and record; NaN where there
@@ -387,9 +380,9 @@ fn on_fixed_base(
     // They are none of the runs that were asked for: nobody is told of them, and they stop with the others.
     let follow = |_| engine.done(0).map_or_else(|_| ControlFlow::Break(()), ControlFlow::Continue);
     let quiet = Engine::new(&follow);
-    let cases = Cases::new(&flat, factors, tail_s, &quiet)?;
-    let all = all_cases(structures.len(), factors);
-    let peaks = cases.run(&structures, &all, |_, response, _| {
+    let all = Case::every(structures.len(), 1, factors);
+    let design = |case: &Case| &structures[case.design];
+    let peaks = flat.runs(factors, tail_s, &quiet)?.all(&all, design, |_, response, _| {
         let demands = &response.demands;
         demands.shape().roof_acceleration().value(demands).unwrap_or(f64::NAN)
     })?;
@@ -403,15 +396,6 @@ fn on_fixed_base(
         (0..records).map(move |record| (design, record))
     };
     Ok(of_design.iter().flat_map(of).map(|(design, record)| peak(design, record)).collect())
-}
-
-/// Every design on every record, the records fastest.
-fn all_cases(designs: usize, factors: &[f64]) -> Vec<Case> {
-    let of = |design| {
-        let each = factors.iter().enumerate();
-        each.map(move |(record, &scale)| Case { design, record, scale })
-    };
-    (0..designs).flat_map(of).collect()
 }
 
 /// The tail of the first design that there is.

@@ -2,15 +2,16 @@
 
 use super::grid::levels;
 use super::{AssessmentError, refuse};
-use crate::error::{MotionError, RunError};
-use crate::input::Parts;
+use crate::error::{MotionError, RunError, Stopped};
+use crate::input::Bound;
 use crate::input::loaded::Loaded;
 use crate::motion::GroundMotion;
 use crate::motion::intensity::{LevelMeasure, Measure};
 use crate::motion::target::{Matched, TargetSpectrum};
 use crate::notice::Notice;
 use crate::record::Origin;
-use crate::study::engine::{Engine, made_motion, scaled_with_tail};
+use crate::study::cases::{InWords, MotionOrigin, Runs};
+use crate::study::engine::Engine;
 use crate::study::{Record, records};
 use crate::table::{Column, Table};
 
@@ -326,32 +327,34 @@ impl Suite {
         Ok(table)
     }
 
+    /// Runs on the records, most of them times these factors and with this tail; no factors where each run has
+    /// its own.
+    pub(super) fn runs<'a>(
+        &'a self,
+        factors: &[f64],
+        tail_s: f64,
+        engine: &'a Engine<'a>,
+    ) -> Result<Runs<'a>, Stopped> {
+        let records = if self.made { &[][..] } else { &self.records[..] };
+        let motions: Vec<(usize, f64)> = factors.iter().copied().enumerate().collect();
+        Runs::new(records, (&motions, tail_s), &|_, _, _| (), engine)
+    }
+
+    /// What messages call the runs of designs with bounds of friction, none where there is one.
+    pub(super) fn in_words<'a>(
+        &'a self,
+        bounds: &'a [Bound],
+        design: &'a dyn Fn(usize) -> String,
+    ) -> InWords<'a> {
+        InWords { records: &self.records, bounds, design }
+    }
+
     /// A record times a factor, with a tail of free vibration.
     ///
     /// # Errors
-    /// [`MotionError`] for a factor or tail that cannot be.
-    pub fn motion(
-        &self,
-        record: usize,
-        factor: f64,
-        tail_s: f64,
-    ) -> Result<GroundMotion, MotionError> {
-        scaled_with_tail(&self.records[record].motion, factor, tail_s)
-    }
-
-    /// The motion of a run: a record of the suite with the model's tail, or the model's own.
-    ///
-    /// # Errors
-    /// [`RunError`] for a motion that cannot be made, scaled or given its tail.
-    pub fn motion_of(
-        &self,
-        record: usize,
-        factor: f64,
-        parts: &Parts,
-    ) -> Result<GroundMotion, RunError> {
-        if !self.made {
-            return Ok(self.motion(record, factor, parts.tail_s)?);
-        }
-        Ok(scaled_with_tail(&made_motion(parts.motion.as_ref())?, factor, parts.tail_s)?)
+    /// [`RunError`] for a factor or tail that cannot be.
+    pub fn motion(&self, record: usize, scale: f64, tail_s: f64) -> Result<GroundMotion, RunError> {
+        let origin = MotionOrigin { record, scale, source: None, turned_rad: None, tail_s };
+        Ok(origin.finished(origin.bare(&self.records)?)?)
     }
 }

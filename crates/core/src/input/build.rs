@@ -70,15 +70,7 @@ pub(super) fn analysis(values: Values) -> Result<Analysis, InputError> {
     };
     Ok(Analysis {
         name: values.text("name").map(str::to_owned),
-        names: Names {
-            block: values.text("block.name").map(str::to_owned),
-            points: model.structure().map_or_else(Vec::new, |structure| {
-                structure.points.iter().map(|point| point.name.clone()).collect()
-            }),
-            storeys: (1..=values.count("storey"))
-                .map(|i| values.text(&format!("storey.{i}.name")).map(str::to_owned))
-                .collect(),
-        },
+        names: names(&values),
         model,
         friction_bounds,
         motion,
@@ -86,6 +78,18 @@ pub(super) fn analysis(values: Values) -> Result<Analysis, InputError> {
         tail_s,
         values,
     })
+}
+
+/// What the model calls its block, its storeys and its points.
+pub(super) fn names(values: &Values) -> Names {
+    let name = |part: String| values.text(&format!("{part}.name")).map(str::to_owned);
+    let points =
+        (1..=values.count("structure.point")).filter_map(|i| name(format!("structure.point.{i}")));
+    Names {
+        block: name("block".to_owned()),
+        storeys: (1..=values.count("storey")).map(|i| name(format!("storey.{i}"))).collect(),
+        points: points.collect(),
+    }
 }
 
 /// The mass of a part, given as such or as its weight.

@@ -41,13 +41,15 @@ pub static MODEL: Section = Section {
             "The structure on the block by its modes, instead of storeys.",
         ),
         Key::optional("frame", Kind::Section(&FRAME), "What the storeys have in common."),
-        Key::optional("motion", Kind::Section(&MOTION), "How the table moves."),
+        Key::optional("motion", Kind::Section(&MOTION), "How the table moves.").not_built(),
         Key::optional(
             "initial",
             Kind::Section(&INITIAL),
             "State at the start; each key replaces its own default.",
-        ),
-        Key::optional("analysis", Kind::Section(&ANALYSIS), "How the response is computed."),
+        )
+        .not_built(),
+        Key::optional("analysis", Kind::Section(&ANALYSIS), "How the response is computed.")
+            .not_built(),
     ],
     choices: &[
         Exclusive::at_most(&["structure", "storey"]),
@@ -73,18 +75,18 @@ static BLOCK: Section = Section {
             Kind::Quantity(Length, Range::Positive),
             "Width along the direction of sliding; with the storeys' heights the ratio of overturning \
              is reported.",
-        ),
+        ).not_built(),
         Key::optional(
             "width_y",
             Kind::Quantity(Length, Range::Positive),
             "Width along y, of a motion in two directions.",
-        ),
+        ).not_built(),
         Key::optional(
             "height",
             Kind::Quantity(Length, Range::Positive),
             "Height of the block: its own inertia then counts for overturning. Without it the block \
              is taken as thin.",
-        ),
+        ).not_built(),
     ],
     choices: &[Exclusive::one_of(&["mass", "weight"])],
 };
@@ -161,7 +163,8 @@ static SLIDER: Section = Section {
             Kind::Quantity(Length, Range::Positive),
             "Sliding displacement that the detailing allows: its use is reported, passing it is a \
              warning.",
-        ),
+        )
+        .not_built(),
         Key::optional(
             "stop",
             Kind::Section(&STOP),
@@ -171,7 +174,8 @@ static SLIDER: Section = Section {
             "bounds",
             Kind::Section(&BOUNDS),
             "Run also with both coefficients of friction times these factors.",
-        ),
+        )
+        .not_built(),
     ],
     choices: &[
         Exclusive::at_most(&["spring", "radius", "period"]),
@@ -239,7 +243,8 @@ static CONTENTS: Section = Section {
             "floor",
             Kind::Whole(0, MAX_STOREYS as u64),
             "Number of the storey on whose floor it stands; 0: on the block.",
-        ),
+        )
+        .not_built(),
         Key::optional("mass", Kind::Quantity(Mass, Range::Positive), "Its mass."),
         Key::optional(
             "weight",
@@ -419,7 +424,8 @@ static STOREY: Section = Section {
             "height",
             Kind::Quantity(Length, Range::Positive),
             "Height of the storey: drift ratio and overturning are reported.",
-        ),
+        )
+        .not_built(),
     ],
     choices: &[
         Exclusive::one_of(&["mass", "weight"]),
@@ -464,12 +470,14 @@ static STRUCTURE: Section = Section {
             "mode",
             Kind::Sections(&MODE, MAX_MODES),
             "Modes on a fixed base, the longest period first.",
-        ),
+        )
+        .not_built(),
         Key::optional(
             "point",
             Kind::Sections(&POINT, MAX_MODES),
             "Points whose motion is wanted, from the block up.",
-        ),
+        )
+        .not_built(),
     ],
     choices: &[Exclusive::one_of(&["mass", "weight"]), Exclusive::at_most(&["modes", "mode"])],
 };

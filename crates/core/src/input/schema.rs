@@ -34,6 +34,9 @@ pub struct Key {
     pub required: bool,
     /// The key without which it means nothing.
     pub beside: Option<&'static str>,
+    /// Whether it, or what stands in it, says how the thing is built that moves: of such keys a sensitivity is
+    /// where none is named.
+    pub built: bool,
     /// What it means, in a sentence.
     pub doc: &'static str,
 }
@@ -118,6 +121,17 @@ impl Section {
         self.keys.iter().find(|key| key.name == name)
     }
 
+    /// The keys that a path goes through, the outermost first.
+    pub fn along(&'static self, path: &str) -> impl Iterator<Item = &'static Key> {
+        let mut section = Some(self);
+        let names = path.split('.').filter(|name| name.parse::<usize>().is_err());
+        names.map_while(move |name| {
+            let key = section?.key(name)?;
+            section = key.kind.section();
+            Some(key)
+        })
+    }
+
     /// The names of its keys.
     #[must_use]
     pub fn names(&self) -> Vec<&'static str> {
@@ -137,15 +151,19 @@ impl Exclusive {
 
 impl Key {
     pub(super) const fn required(name: &'static str, kind: Kind, doc: &'static str) -> Self {
-        Self { name, kind, required: true, beside: None, doc }
+        Self { name, kind, required: true, beside: None, built: true, doc }
     }
 
     pub(super) const fn optional(name: &'static str, kind: Kind, doc: &'static str) -> Self {
-        Self { name, kind, required: false, beside: None, doc }
+        Self { name, kind, required: false, beside: None, built: true, doc }
     }
 
     pub(super) const fn beside(self, other: &'static str) -> Self {
         Self { beside: Some(other), ..self }
+    }
+
+    pub(super) const fn not_built(self) -> Self {
+        Self { built: false, ..self }
     }
 }
 

@@ -7,7 +7,7 @@ use super::keys::MODEL;
 use super::plan::Varied;
 use super::reader::Values;
 use super::schema::Range;
-use super::{Analysis, FrictionBounds, MAX_TEXT_BYTES, Override, parse, tree};
+use super::{Analysis, FrictionBounds, MAX_TEXT_BYTES, Names, Override, parse, tree};
 use crate::error::InputError;
 use crate::response::DemandShape;
 
@@ -185,6 +185,12 @@ impl Variation {
             },
             contents: self.values.count("contents"),
         }
+    }
+
+    /// What the model calls its block, its storeys and its points.
+    #[must_use]
+    pub fn names(&self) -> Names {
+        build::names(&self.values)
     }
 
     /// The bounds of friction, where the model gives them.

@@ -1,6 +1,52 @@
-//! The cases of a study in their order.
+//! The cases of an analysis, and their runs: a design with a bound of friction, on a record at a level.
+//!
+//! A study, a spectrum, an incremental dynamic analysis and a design differ in the cases that they ask for and in
+//! what they keep of a response. A run that has no answer is one run with its error; the others go on. What is
+//! said of a run names its case.
 
-/// Numbers of records, levels and samples: runs go through all of them, the last fastest.
+use core::borrow::Borrow;
+
+use super::engine::{Engine, Running};
+use super::records::Record;
+use crate::error::{MotionError, RunError, Stopped};
+use crate::input::{Bound, MotionSource, Parts};
+use crate::model::Model;
+use crate::motion::GroundMotion;
+use crate::notice::{Notice, NoticeKind};
+use crate::response::{Response, flat_geometry};
+use crate::solver::{PreparedMotion, Workspace};
+
+/// Runs of one design that one thread takes: the model is prepared once for them.
+const PIECE: usize = 16;
+
+/// What a run is of. Numbers count from 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Case {
+    /// Number of the record.
+    pub record: usize,
+    /// Number of the level; 0 where levels are sought.
+    pub level: usize,
+    /// Number of the design: a sample of a study, a place in a grid.
+    pub design: usize,
+    /// Number of the bound of friction.
+    pub bound: usize,
+    /// Factor on the record, or on the motion that the model makes.
+    pub scale: f64,
+}
+
+impl Case {
+    /// Some designs with each bound, on every record times its factor, the records fastest.
+    pub(crate) fn every(designs: usize, bounds: usize, factors: &[f64]) -> Vec<Self> {
+        let each = |number| {
+            let (bound, design) = (number / designs, number % designs);
+            let on = move |(record, &scale)| Self { record, level: 0, design, bound, scale };
+            factors.iter().enumerate().map(on)
+        };
+        (0..designs * bounds).flat_map(each).collect()
+    }
+}
+
+/// Numbers of records, levels and samples of a study: its runs go through all of them, the last fastest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cases {
     /// Number of records, ≥ 1; a made motion counts as one.
@@ -11,19 +57,6 @@ pub struct Cases {
     pub samples: u64,
     /// Number of bounds of friction that each sample is run with, ≥ 1.
     pub bounds: u64,
-}
-
-/// Indices of one run, from 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Case {
-    /// Which record.
-    pub record: u64,
-    /// Which level.
-    pub level: u64,
-    /// Which sample.
-    pub sample: u64,
-    /// Which bound of friction.
-    pub bound: u64,
 }
 
 impl Cases {
@@ -40,23 +73,328 @@ impl Cases {
         self.samples * self.bounds
     }
 
-    /// The case of a run.
-    #[must_use]
-    pub fn case(&self, run: u64) -> Case {
+    /// The case of a run; `factors` are those of each record's levels, record by record.
+    pub(super) fn case(&self, run: u64, factors: &[f64]) -> Case {
         let (motion, model) = (run / self.models(), run % self.models());
         Case {
-            record: motion / self.levels,
-            level: motion % self.levels,
-            sample: model / self.bounds,
-            bound: model % self.bounds,
+            record: (motion / self.levels) as usize,
+            level: (motion % self.levels) as usize,
+            design: (model / self.bounds) as usize,
+            bound: (model % self.bounds) as usize,
+            scale: factors.get(motion as usize).copied().unwrap_or(1.0),
         }
     }
 
+    /// Number of a case's model, below [`Cases::models`].
+    pub(super) fn model(&self, case: &Case) -> u64 {
+        case.design as u64 * self.bounds + case.bound as u64
+    }
+
     /// The run of a case.
-    #[must_use]
-    pub fn run(&self, case: Case) -> u64 {
-        let motion = case.record * self.levels + case.level;
-        (motion * self.samples + case.sample) * self.bounds + case.bound
+    pub(super) fn run(&self, case: &Case) -> u64 {
+        let motion = case.record as u64 * self.levels + case.level as u64;
+        motion * self.models() + self.model(case)
+    }
+}
+
+/// A run that was made.
+#[derive(Clone, Debug)]
+pub struct Ran<R, M = ()> {
+    /// What it is of.
+    pub case: Case,
+    /// What is known of its motion, where there is one.
+    pub known: Option<M>,
+    /// What was kept of its response, or why there is none.
+    pub kept: Result<R, RunError>,
+    /// Kinds of what was noticed of the response.
+    pub noticed: Vec<NoticeKind>,
+}
+
+impl<R, M> Ran<R, M> {
+    /// A run of which nothing else is known.
+    pub(crate) fn of(case: Case, kept: Result<R, RunError>) -> Self {
+        Self { case, known: None, kept, noticed: Vec::new() }
+    }
+}
+
+/// Kinds of what is noticed of a response that nobody judged.
+pub(super) fn noticed_of(model: &Model, response: &Response) -> Vec<NoticeKind> {
+    let flat = flat_geometry(model, &response.demands);
+    flat.iter().chain(&response.warnings).map(|warning| warning.kind).collect()
+}
+
+/// What the motion of a run is made from: one serves all runs that agree on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct MotionOrigin<'a> {
+    pub(crate) record: usize,
+    pub(crate) scale: f64,
+    /// What the model makes, where there are no records.
+    pub(crate) source: Option<&'a MotionSource>,
+    /// Angle by which a pair of recorded components is turned, x towards y, where it is varied.
+    pub(crate) turned_rad: Option<f64>,
+    pub(crate) tail_s: f64,
+}
+
+impl MotionOrigin<'_> {
+    /// The motion as it was recorded or made, times its factor.
+    pub(crate) fn bare(&self, records: &[Record]) -> Result<GroundMotion, RunError> {
+        let made;
+        let unscaled = match records.get(self.record) {
+            Some(record) => &record.motion,
+            None => {
+                let source = self.source.map(MotionSource::made).transpose()?;
+                made = source.flatten().ok_or(RunError::NoMotion)?;
+                &made
+            }
+        };
+        Ok(if self.scale == 1.0 { unscaled.clone() } else { unscaled.scaled(self.scale)? })
+    }
+
+    /// The same turned, with a tail of free vibration.
+    pub(crate) fn finished(&self, bare: GroundMotion) -> Result<GroundMotion, MotionError> {
+        let turned = match self.turned_rad {
+            Some(angle_rad) => bare.turned(1.0, angle_rad)?,
+            None => bare,
+        };
+        if self.tail_s == 0.0 { Ok(turned) } else { turned.with_tail(self.tail_s) }
+    }
+}
+
+/// A motion as it is solved, and what is known of it.
+#[derive(Clone, Debug)]
+struct Shaking<M> {
+    motion: PreparedMotion,
+    known: M,
+}
+
+/// What is to be known of the motion of a record times a factor, without its tail and before it is turned.
+pub(crate) type Know<'a, M> = &'a (dyn Fn(usize, f64, &GroundMotion) -> M + Sync);
+
+/// The runs of an analysis: its records, and those motions that most runs share, each prepared once.
+pub(crate) struct Runs<'a, M = ()> {
+    /// None where every model makes its own motion.
+    records: &'a [Record],
+    /// Record by record: its number, the factor on it, and the motion.
+    shared: Vec<(usize, f64, Result<Shaking<M>, RunError>)>,
+    /// Tail of the motions that are shared.
+    tail_s: f64,
+    know: Know<'a, M>,
+    engine: &'a Engine<'a>,
+}
+
+impl<'a, M: Clone + Send + Sync> Runs<'a, M> {
+    /// Runs most of which are on these records times these factors, with this tail.
+    pub(crate) fn new(
+        records: &'a [Record],
+        (motions, tail_s): (&[(usize, f64)], f64),
+        know: Know<'a, M>,
+        engine: &'a Engine<'a>,
+    ) -> Result<Self, Stopped> {
+        let mut of = Self { records, shared: Vec::new(), tail_s, know, engine };
+        // A made motion may be another with every design.
+        let count = if records.is_empty() { 0 } else { motions.len() };
+        of.shared = engine.map(count, |i| {
+            let (record, scale) = motions[i];
+            let origin = MotionOrigin { record, scale, source: None, turned_rad: None, tail_s };
+            Ok((record, scale, of.shaking(&origin)))
+        })?;
+        Ok(of)
+    }
+
+    fn shaking(&self, origin: &MotionOrigin<'_>) -> Result<Shaking<M>, RunError> {
+        let bare = origin.bare(self.records)?;
+        let known = (self.know)(origin.record, origin.scale, &bare);
+        Ok(Shaking { motion: PreparedMotion::new(origin.finished(bare)?), known })
+    }
+
+    fn shared(&self, case: &Case) -> Option<&Result<Shaking<M>, RunError>> {
+        let from = self.shared.partition_point(|(record, ..)| *record < case.record);
+        let of_record = self.shared[from..].iter().take_while(|of| of.0 == case.record);
+        of_record.into_iter().find(|of| of.1 == case.scale).map(|of| &of.2)
+    }
+
+    /// The runs of cases, in their order; those of one design stand together. `design` gives the model of a
+    /// case, `keep` what is kept of a response and of the motion under it. The engine is told of every run.
+    pub(crate) fn all<'d, R: Send>(
+        &self,
+        cases: &[Case],
+        design: impl Fn(&Case) -> &'d Result<Parts, RunError> + Sync,
+        keep: impl Fn(&Case, &Response, &GroundMotion) -> R + Sync,
+    ) -> Result<Vec<Ran<R, M>>, Stopped> {
+        let alike = |a: &Case, b: &Case| (a.design, a.bound) == (b.design, b.bound);
+        let of_design = cases.chunk_by(alike);
+        let pieces: Vec<&[Case]> = of_design.flat_map(|cases| cases.chunks(PIECE)).collect();
+        self.engine.plan(cases.len() as u64);
+        self.pieces(&pieces, |case| (design(case), None), keep)
+    }
+
+    /// The same of pieces of cases, each on one thread, whose models may come back in turn; beside the model of
+    /// a case stands the angle by which its motion is turned.
+    pub(crate) fn pieces<'d, R: Send>(
+        &self,
+        pieces: &[impl AsRef<[Case]> + Sync],
+        design: impl Fn(&Case) -> (&'d Result<Parts, RunError>, Option<f64>) + Sync,
+        keep: impl Fn(&Case, &Response, &GroundMotion) -> R + Sync,
+    ) -> Result<Vec<Ran<R, M>>, Stopped> {
+        let ran = self.engine.map(pieces.len(), |i| {
+            let mut thread = OneThread::new(self);
+            let cases = pieces[i].as_ref().iter();
+            let ran: Vec<_> = cases.map(|case| thread.run(*case, design(case), &keep)).collect();
+            self.engine.done(ran.len() as u64)?;
+            Ok(ran)
+        })?;
+        Ok(ran.into_iter().flatten().collect())
+    }
+}
+
+/// Runs one after the other: a model is prepared once for all of its runs, a motion for those in a row.
+pub(crate) struct OneThread<'a, M = ()> {
+    of: &'a Runs<'a, M>,
+    models: Vec<([usize; 2], Running<'a>)>,
+    own: Option<(MotionOrigin<'a>, Result<Shaking<M>, RunError>)>,
+    room: Workspace,
+}
+
+impl<'a, M: Clone + Send + Sync> OneThread<'a, M> {
+    pub(crate) fn new(of: &'a Runs<'a, M>) -> Self {
+        Self { of, models: Vec::new(), own: None, room: Workspace::default() }
+    }
+
+    pub(crate) fn run<R>(
+        &mut self,
+        case: Case,
+        (parts, turned_rad): (&'a Result<Parts, RunError>, Option<f64>),
+        keep: impl Fn(&Case, &Response, &GroundMotion) -> R,
+    ) -> Ran<R, M> {
+        let Self { of, models, own, room } = self;
+        let shared = of.shared(&case);
+        let known = |shaking: &Result<Shaking<M>, RunError>| {
+            shaking.as_ref().ok().map(|shaking| shaking.known.clone())
+        };
+        let failed = |known, error: &RunError| Ran { known, ..Ran::of(case, Err(error.clone())) };
+        let parts = match parts {
+            Ok(parts) => parts,
+            Err(error) => return failed(shared.and_then(known), error),
+        };
+        let shaking = match shared {
+            Some(shared) if turned_rad.is_none() && parts.tail_s == of.tail_s => shared,
+            _ => {
+                let Case { record, scale, .. } = case;
+                let source = parts.motion.as_ref().filter(|_| of.records.is_empty());
+                let tail_s = parts.tail_s;
+                let origin = MotionOrigin { record, scale, source, turned_rad, tail_s };
+                if own.as_ref().is_none_or(|(own, _)| *own != origin) {
+                    *own = None;
+                }
+                &own.get_or_insert_with(|| (origin, of.shaking(&origin))).1
+            }
+        };
+        let ready = match shaking {
+            Ok(ready) => ready,
+            Err(error) => return failed(None, error),
+        };
+        let model = [case.design, case.bound];
+        let at = models.iter().position(|(of, _)| *of == model).unwrap_or_else(|| {
+            models.push((model, Running::new(&parts.model, of.engine)));
+            models.len() - 1
+        });
+        let known = Some(ready.known.clone());
+        match models[at].1.on(&ready.motion, room) {
+            Ok(response) => Ran {
+                case,
+                known,
+                noticed: noticed_of(&parts.model, &response),
+                kept: Ok(keep(&case, &response, ready.motion.motion())),
+            },
+            Err(error) => failed(known, &error.into()),
+        }
+    }
+}
+
+/// A run without an answer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FailedRun {
+    /// What it is of, in words.
+    pub case: String,
+    /// Why.
+    pub error: RunError,
+}
+
+impl core::fmt::Display for FailedRun {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "{}: {}", self.case, self.error)
+    }
+}
+
+/// What the column of that name says of a run: `ok`, or why it has no answer.
+pub(crate) fn status(error: Option<&RunError>) -> String {
+    error.map_or_else(|| "ok".to_owned(), RunError::to_string)
+}
+
+/// What the runs of an analysis are called in messages.
+#[derive(Clone, Copy)]
+pub(crate) struct InWords<'a> {
+    pub(crate) records: &'a [Record],
+    /// The bounds of friction; none where one is run.
+    pub(crate) bounds: &'a [Bound],
+    /// A design, to stand after its record; empty where it is the only one.
+    pub(crate) design: &'a dyn Fn(usize) -> String,
+}
+
+impl InWords<'_> {
+    /// A case: record times factor, design, bound.
+    pub(crate) fn case(&self, case: &Case) -> String {
+        let Case { record, design, bound, scale, .. } = *case;
+        let record = &self.records[record].name;
+        // Four digits name a factor.
+        let short: f64 = format!("{scale:.3e}").parse().unwrap_or(scale);
+        let times = match short.abs() {
+            _ if scale == 1.0 => String::new(),
+            1e-3..1e6 => format!(" × {short}"),
+            _ => format!(" × {short:e}"),
+        };
+        let bound = self.bounds.get(bound);
+        let bound = bound.map_or(String::new(), |bound| format!(", {} friction", bound.name));
+        format!("{record}{times}{}{bound}", (self.design)(design))
+    }
+
+    /// A run without an answer.
+    pub(crate) fn failed(&self, case: &Case, error: &RunError) -> FailedRun {
+        FailedRun { case: self.case(case), error: error.clone() }
+    }
+
+    /// The runs without an answer.
+    pub(crate) fn failures<'r, R: 'r, M: 'r>(
+        &self,
+        ran: impl IntoIterator<Item = &'r Ran<R, M>>,
+    ) -> Vec<FailedRun> {
+        let of = |ran: &Ran<R, M>| Some(self.failed(&ran.case, ran.kept.as_ref().err()?));
+        ran.into_iter().filter_map(of).collect()
+    }
+
+    /// What was noticed of runs, each kind once with the number of its runs and the first of them.
+    pub(crate) fn noticed<R, M>(&self, ran: &[Ran<R, M>]) -> Vec<Notice> {
+        let mut kinds = Vec::new();
+        for Ran { case, noticed, .. } in ran {
+            noticed.iter().for_each(|kind| tally(&mut kinds, kind, case));
+        }
+        let told = |(kind, count, case): (NoticeKind, u64, &Case)| {
+            let (runs, first) = (ran.len(), self.case(case));
+            Notice::new(kind, format!("{count} of {runs} runs, the first of them {first}"))
+        };
+        kinds.into_iter().map(told).collect()
+    }
+}
+
+/// Counts what was seen, each kind with the number of times and where it was first.
+pub(super) fn tally<K, Q, F>(seen: &mut Vec<(K, u64, F)>, kind: &Q, at: F)
+where
+    K: Borrow<Q>,
+    Q: ToOwned<Owned = K> + PartialEq + ?Sized,
+{
+    match seen.iter_mut().find(|(known, ..)| (*known).borrow() == kind) {
+        Some((_, count, _)) => *count += 1,
+        None => seen.push((kind.to_owned(), 1, at)),
     }
 }
 
@@ -67,16 +405,22 @@ mod tests {
     #[test]
     fn exact_runs_count_bounds_and_samples_fastest() {
         let cases = Cases { records: 3, levels: 2, samples: 5, bounds: 2 };
-        let case = |record, level, sample, bound| Case { record, level, sample, bound };
+        let factors = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
         assert_eq!((cases.runs(), cases.models()), (Some(60), 10));
-        assert_eq!(cases.case(0), case(0, 0, 0, 0));
-        assert_eq!(cases.case(1), case(0, 0, 0, 1));
-        assert_eq!(cases.case(9), case(0, 0, 4, 1));
-        assert_eq!(cases.case(10), case(0, 1, 0, 0));
-        assert_eq!(cases.case(20), case(1, 0, 0, 0));
-        assert_eq!(cases.case(59), case(2, 1, 4, 1));
+        for (run, [record, level, design, bound]) in [
+            (0, [0, 0, 0, 0]),
+            (1, [0, 0, 0, 1]),
+            (9, [0, 0, 4, 1]),
+            (10, [0, 1, 0, 0]),
+            (20, [1, 0, 0, 0]),
+            (59, [2, 1, 4, 1]),
+        ] {
+            let scale = factors[2 * record + level];
+            let case = Case { record, level, design, bound, scale };
+            assert_eq!(cases.case(run, &factors), case);
+        }
         for run in 0..60 {
-            assert_eq!(cases.run(cases.case(run)), run);
+            assert_eq!(cases.run(&cases.case(run, &factors)), run);
         }
         let many = Cases { records: 1 << 30, levels: 1 << 30, samples: 1 << 30, bounds: 1 };
         assert_eq!(many.runs(), None);

@@ -1,5 +1,6 @@
 //! The columns of a study's table.
 
+use super::cases::status;
 use super::{Row, Study};
 use crate::response::{DemandColumn, DemandKind, InDirections, Response, demand_values};
 use crate::table::{Cells, Column, Field, Kind, Table};
@@ -90,14 +91,14 @@ impl Study {
         let texts = |text: &dyn Fn(&Row) -> String| Cells::Texts(rows.iter().map(text).collect());
         let numbers =
             |number: &dyn Fn(&Row) -> f64| Cells::Numbers(rows.iter().map(number).collect());
-        let record = |row: &Row| self.records.get(row.case.record as usize);
+        let record = |row: &Row| self.records.get(row.case.record);
         let of = |list: &[f64], i: usize| list.get(i).copied().unwrap_or(f64::NAN);
         let mut cells = vec![
             Cells::Counts(rows.iter().map(|row| Some(row.run as i64)).collect()),
             texts(&|row| record(row).map_or(self.made_motion().to_owned(), |r| r.name.clone())),
             texts(&|row| record(row).map_or_else(String::new, |r| r.channel.clone())),
             numbers(&|row| self.level(row.case.level).unwrap_or(f64::NAN)),
-            numbers(&|row| row.scale),
+            numbers(&|row| row.case.scale),
         ];
         if self.has_pairs() {
             let pair = |row: &Row| record(row).map_or("", |r| self.pair_name(r)).to_owned();
@@ -105,7 +106,7 @@ impl Study {
         }
         cells.extend((0..self.measures.len()).map(|i| numbers(&|row| of(&row.measures, i))));
         if self.has_bounds() {
-            cells.push(texts(&|row| self.bound(row.case).name.to_owned()));
+            cells.push(texts(&|row| self.bound(&row.case).name.to_owned()));
         }
         let varied = self.design.vary().len();
         cells.extend((0..varied).map(|i| numbers(&|row| of(&row.values, i))));
@@ -113,9 +114,7 @@ impl Study {
             Cells::of_numbers(column.demand.kind.into(), rows.iter().map(|row| of(&row.demands, i)))
         }));
         cells.push(texts(&Row::kinds));
-        cells.push(texts(&|row| {
-            row.error.as_ref().map_or_else(|| "ok".to_owned(), ToString::to_string)
-        }));
+        cells.push(texts(&|row| status(row.error.as_ref())));
         cells
     }
 

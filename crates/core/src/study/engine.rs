@@ -11,10 +11,8 @@ use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::Arc;
 
-use crate::error::{MotionError, RunError, SolveError, Stopped};
-use crate::input::MotionSource;
+use crate::error::{SolveError, Stopped};
 use crate::model::Model;
-use crate::motion::GroundMotion;
 use crate::progress::GoOn;
 use crate::response::Response;
 use crate::solver::{Prepared, PreparedMotion, Workspace};
@@ -175,43 +173,6 @@ impl<'a> Running<'a> {
         };
         self.engine.watch(|go_on| self.prepared.insert(prepared).demands_while(room, motion, go_on))
     }
-}
-
-/// The motion that a model makes itself, without its tail.
-///
-/// # Errors
-/// [`RunError`] for no motion, one that is a record, and one that cannot be.
-pub fn made_motion(source: Option<&MotionSource>) -> Result<GroundMotion, RunError> {
-    source.map(MotionSource::made).transpose()?.flatten().ok_or(RunError::NoMotion)
-}
-
-/// A motion times a factor, with a tail of free vibration.
-///
-/// # Errors
-/// [`MotionError`] for a factor or a tail that cannot be.
-pub fn scaled_with_tail(
-    motion: &GroundMotion,
-    factor: f64,
-    tail_s: f64,
-) -> Result<GroundMotion, MotionError> {
-    let scaled = if factor == 1.0 { motion.clone() } else { motion.scaled(factor)? };
-    turned_with_tail(&scaled, None, tail_s)
-}
-
-/// A motion turned by an angle, x towards y, with a tail of free vibration.
-///
-/// # Errors
-/// [`MotionError`] for a tail that cannot be.
-pub(super) fn turned_with_tail(
-    motion: &GroundMotion,
-    turned_rad: Option<f64>,
-    tail_s: f64,
-) -> Result<GroundMotion, MotionError> {
-    let turned = match turned_rad {
-        Some(angle_rad) => motion.turned(1.0, angle_rad)?,
-        None => motion.clone(),
-    };
-    if tail_s == 0.0 { Ok(turned) } else { turned.with_tail(tail_s) }
 }
 
 #[cfg(test)]

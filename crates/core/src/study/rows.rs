@@ -3,17 +3,16 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::engine::{Engine, Running, made_motion, turned_with_tail};
+use super::cases::{Case, Cases, Ran, Runs};
+use super::engine::Engine;
 use super::notices::{coarse_sampling, longest_step_s};
-use super::{Case, Sample, Study, chunks};
+use super::{Sample, Study, chunks};
 use crate::error::{RunError, Stopped};
-use crate::input::MotionSource;
-use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::motion::intensity::{IntensityMeasures, LevelMeasure, Measure};
 use crate::notice::{NoticeKind, Severity};
-use crate::response::{Response, flat_geometry};
-use crate::solver::{PreparedMotion, Workspace};
+use crate::numerics::sort;
+use crate::response::Demands;
 
 /// Most samples of scaled copies of a record that are held at a time.
 const SAMPLES_AT_ONCE: usize = 4_000_000;
@@ -23,10 +22,8 @@ const SAMPLES_AT_ONCE: usize = 4_000_000;
 pub struct Row {
     /// Its number, from 0.
     pub run: u64,
-    /// Its record, level and sample.
+    /// Its record, level, sample and bound, and the factor on the record.
     pub case: Case,
-    /// The factor on the record; 1 for a made motion.
-    pub scale: f64,
     /// Intensity measures of the motion as it was run, without its tail; NaN where there is no
     /// motion. In the order of [`Study::measures`].
     pub measures: Arc<[f64]>,
@@ -50,23 +47,16 @@ impl Row {
     }
 }
 
-/// A motion as it is solved, and what rows say of it.
+/// What rows say of their motion.
 #[derive(Clone, Debug)]
-struct Shaking {
-    motion: PreparedMotion,
+struct Shaken {
     measures: Arc<[f64]>,
     /// Longest step of the motion without its tail.
     longest_step_s: f64,
 }
 
-/// What a prepared motion was made from: it serves for all samples that agree on it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct MotionOrigin<'a> {
-    source: Option<&'a MotionSource>,
-    /// Angle by which a pair of recorded components is turned, where it is varied.
-    turned_rad: Option<f64>,
-    tail_s: f64,
-}
+/// What rows keep of a response: its demands, and kinds of what is noticed of them.
+type Answer = (Vec<f64>, Vec<NoticeKind>);
 
 impl Study {
     /// The rows of a range of runs, in order; the engine is told of every run.
@@ -74,162 +64,79 @@ impl Study {
     /// # Errors
     /// [`Stopped`].
     pub fn rows(&self, runs: Range<u64>, engine: &Engine<'_>) -> Result<Vec<Row>, Stopped> {
-        let models = self.cases.models();
-        let mut blocks: Vec<Vec<Range<u64>>> = Vec::new();
+        let Cases { levels, .. } = self.cases;
+        let mut blocks: Vec<Range<u64>> = Vec::new();
         let mut at = runs.start;
         while at < runs.end {
             // All runs of one record at one level stand together.
-            let end = ((at / models + 1) * models).min(runs.end);
-            let record = self.cases.case(at).record;
-            match blocks.last_mut() {
-                Some(block)
-                    if self.cases.case(block[0].start).record == record
-                        && block.len() < self.levels_at_once(record) =>
-                {
-                    block.push(at..end);
-                }
-                _ => blocks.push(core::iter::once(at..end).collect()),
-            }
+            let motion = at / self.cases.models();
+            let record = motion / levels;
+            let length = self.records.get(record as usize).map_or(1, |record| record.motion.len());
+            let at_once = (SAMPLES_AT_ONCE / length).max(1) as u64;
+            let last = (motion + at_once).min((record + 1) * levels);
+            let end = (last * self.cases.models()).min(runs.end);
+            blocks.push(at..end);
             at = end;
         }
         let rows = engine.map(blocks.len(), |i| self.block(&blocks[i], engine))?;
         Ok(rows.into_iter().flatten().collect())
     }
 
-    /// How many scaled copies of a record are held at a time.
-    fn levels_at_once(&self, record: u64) -> usize {
-        let length = self.records.get(record as usize).map_or(1, |record| record.motion.len());
-        (SAMPLES_AT_ONCE / length).max(1)
-    }
-
-    /// Runs of one record at some levels, each a range: a model is prepared once for all of them.
-    fn block(&self, levels: &[Range<u64>], engine: &Engine<'_>) -> Result<Vec<Row>, Stopped> {
-        let cases: Vec<Case> = levels.iter().map(|runs| self.cases.case(runs.start)).collect();
-        let scaled: Vec<Option<Result<Shaking, RunError>>> =
-            engine.map(cases.len(), |i| Ok(self.scaled(&cases[i])))?;
-        let model = |run: u64| run % self.cases.models();
-        let first = levels.iter().map(|runs| model(runs.start)).min().unwrap_or(0);
-        let last = levels.iter().map(|runs| model(runs.end - 1)).max().unwrap_or(0);
-        let samples = self.samples(first..last + 1, engine)?;
-        let chunks: Vec<_> = chunks(first..last + 1).collect();
-        let of_chunk = |i: usize| -> Result<Vec<Vec<Row>>, Stopped> {
-            let chunk = &chunks[i];
-            let own = |index: u64| (index - first) as usize;
-            let samples = &samples[own(chunk.start)..own(chunk.end)];
-            let mut models: Vec<Result<Running<'_>, RunError>> = Vec::with_capacity(samples.len());
-            for sample in samples {
-                let parts = sample.parts.as_ref().map_err(Clone::clone);
-                models.push(parts.map(|parts| Running::new(&parts.model, engine)));
-            }
-            let mut room = Workspace::default();
-            let of_level = |(runs, scaled): (&Range<u64>, &Option<_>)| {
-                let start = model(runs.start).max(chunk.start);
-                let end = (model(runs.end - 1) + 1).min(chunk.end);
-                if start >= end {
-                    return Vec::new();
-                }
-                let run = runs.start - model(runs.start) + start;
-                let these = (start - chunk.start) as usize..(end - chunk.start) as usize;
-                let (samples, models) = (&samples[these.clone()], &mut models[these]);
-                self.chunk(run, (samples, models), scaled.as_ref(), &mut room)
+    /// Runs of one record at some levels: a model is prepared once for all of them.
+    fn block(&self, runs: &Range<u64>, engine: &Engine<'_>) -> Result<Vec<Row>, Stopped> {
+        let models = self.cases.models();
+        let levels: Vec<u64> = (runs.start / models..runs.end.div_ceil(models)).collect();
+        let motion = |level: &u64| {
+            let Case { record, scale, .. } = self.case(level * models);
+            (record, scale)
+        };
+        let motions: Vec<(usize, f64)> = levels.iter().map(motion).collect();
+        let know = |record: usize, scale: f64, motion: &GroundMotion| Shaken {
+            measures: self.measures_of(record, scale, motion),
+            longest_step_s: longest_step_s(motion),
+        };
+        let all = Runs::new(&self.records, (&motions, 0.0), &know, engine)?;
+        let these = match levels.len() {
+            1 => runs.start % models..(runs.end - 1) % models + 1,
+            _ => 0..models,
+        };
+        let samples = self.samples(these.clone(), engine)?;
+        let sample = |case: &Case| &samples[(self.cases.model(case) - these.start) as usize];
+        let piece = |chunk: Range<u64>| {
+            let of_level = |level: &u64| {
+                let from = level * models;
+                (from + chunk.start).max(runs.start)..(from + chunk.end).min(runs.end)
             };
-            let rows: Vec<Vec<Row>> = levels.iter().zip(&scaled).map(of_level).collect();
-            engine.done(rows.iter().map(|rows| rows.len() as u64).sum())?;
-            Ok(rows)
+            levels.iter().flat_map(of_level).map(|run| self.case(run)).collect()
         };
-        let mut of_levels: Vec<Vec<Row>> = levels.iter().map(|_| Vec::new()).collect();
-        for of_chunk in engine.map(chunks.len(), of_chunk)? {
-            for (rows, more) in of_levels.iter_mut().zip(of_chunk) {
-                rows.extend(more);
-            }
-        }
-        Ok(of_levels.into_iter().flatten().collect())
+        let pieces: Vec<Vec<Case>> = chunks(these.clone()).map(piece).collect();
+        let design = |case: &Case| {
+            let sample = sample(case);
+            (&sample.parts, self.turned_rad(&sample.values))
+        };
+        let ran = all.pieces(&pieces, design, |_, response, _| {
+            (self.demands(response), of_demands(&response.demands))
+        })?;
+        let row = |ran: Ran<Answer, Shaken>| self.row(sample(&ran.case), ran);
+        let mut rows: Vec<Row> = ran.into_iter().map(row).collect();
+        sort(&mut rows, |a, b| a.run.cmp(&b.run));
+        Ok(rows)
     }
 
-    /// The record of a case at its level; `None` where the model makes its own motion.
-    fn scaled(&self, case: &Case) -> Option<Result<Shaking, RunError>> {
-        let record = self.records.get(case.record as usize)?;
-        let scale = self.factor(*case);
-        let motion = record.motion.scaled(scale).map_err(RunError::from);
-        Some(motion.map(|motion| {
-            let measures = self.measures_of(case.record, scale, &motion);
-            let longest_step_s = longest_step_s(&motion);
-            Shaking { motion: PreparedMotion::new(motion), measures, longest_step_s }
-        }))
-    }
-
-    /// Runs of neighbouring models at one level, from the run `first` on; those that move the table alike share one motion.
-    fn chunk<'s>(
-        &self,
-        first: u64,
-        (samples, models): (&'s [Sample], &mut [Result<Running<'s>, RunError>]),
-        scaled: Option<&Result<Shaking, RunError>>,
-        room: &mut Workspace,
-    ) -> Vec<Row> {
-        let made = |sample: &'s Sample| {
-            let parts = sample.parts.as_ref().ok()?;
-            let source = if scaled.is_some() { None } else { parts.motion.as_ref() };
-            let turned_rad = self.turned_rad(&sample.values);
-            Some(MotionOrigin { source, turned_rad, tail_s: parts.tail_s })
-        };
-        let none = Err(RunError::NoMotion);
-        let mut rows = Vec::with_capacity(samples.len());
-        while let Some(sample) = samples.get(rows.len()) {
-            let alike = made(sample);
-            let own;
-            let motion = match (scaled, &alike) {
-                (Some(scaled), None | Some(MotionOrigin { turned_rad: None, tail_s: 0.0, .. })) => {
-                    scaled
-                }
-                (None, None) => &none,
-                (_, Some(made)) => {
-                    own = self.own_motion(*made, scaled);
-                    &own
-                }
-            };
-            let start = rows.len();
-            let rest = samples[start..].iter().zip(&mut models[start..]);
-            for (sample, model) in rest.take_while(|(sample, _)| made(sample) == alike) {
-                let case = self.cases.case(first + rows.len() as u64);
-                rows.push(self.run(case, sample, (model, motion), room));
-            }
-        }
-        rows
-    }
-
-    fn run(
-        &self,
-        case: Case,
-        sample: &Sample,
-        (model, motion): (&mut Result<Running<'_>, RunError>, &Result<Shaking, RunError>),
-        room: &mut Workspace,
-    ) -> Row {
-        let measures = match motion {
-            Ok(ready) => ready.measures.clone(),
-            Err(_) => vec![f64::NAN; self.measures.len()].into(),
-        };
-        let (run, values) = (self.cases.run(case), sample.values.clone());
-        let scale = self.factor(case);
-        let outcome = match (model, motion) {
-            (Err(error), _) => Err(error.clone()),
-            (_, Err(error)) => Err(error.clone()),
-            (Ok(model), Ok(ready)) => model.on(&ready.motion, room).map_err(RunError::from),
-        };
-        let (demands, warnings, error) = match outcome {
-            Ok(response) => {
-                let noticed = motion.as_ref().map_or_else(
-                    |_| Vec::new(),
-                    |ready| {
-                        let (highest_hz, step_s) = (sample.highest_hz, ready.longest_step_s);
-                        self.noticed(case, &sample.suspicious, highest_hz, step_s)
-                    },
-                );
-                let model = sample.parts.as_ref().ok().map(|parts| &parts.model);
-                (self.demands(&response), warnings(&noticed, model, &response), None)
+    fn row(&self, sample: &Sample, ran: Ran<Answer, Shaken>) -> Row {
+        let Ran { case, known, kept, noticed } = ran;
+        let nothing = || vec![f64::NAN; self.measures.len()].into();
+        let measures = known.as_ref().map_or_else(nothing, |known| known.measures.clone());
+        let (demands, warnings, error) = match kept {
+            Ok((demands, of_demands)) => {
+                let step_s = known.map_or(0.0, |known| known.longest_step_s);
+                let before = self.noticed(case, &sample.suspicious, sample.highest_hz, step_s);
+                (demands, warnings([before, of_demands, noticed]), None)
             }
             Err(error) => (vec![f64::NAN; self.demand_columns().len()], Vec::new(), Some(error)),
         };
-        Row { run, case, scale, measures, values, demands, warnings, error }
+        let (run, values) = (self.cases.run(&case), sample.values.clone());
+        Row { run, case, measures, values, demands, warnings, error }
     }
 
     /// Kinds of what is noticed of the record, and of model and motion before they are run.
@@ -240,42 +147,18 @@ impl Study {
         highest_hz: f64,
         longest_step_s: f64,
     ) -> Vec<NoticeKind> {
-        let of_record = self.records.get(case.record as usize).map(|record| &record.notices);
+        let of_record = self.records.get(case.record).map(|record| &record.notices);
         let of_model = coarse_sampling(highest_hz, longest_step_s);
         let of_model = of_model.into_iter().map(|warning| warning.kind);
         let of_record = of_record.into_iter().flatten().map(|notice| notice.kind);
         of_record.chain(suspicious.iter().copied()).chain(of_model).collect()
     }
 
-    /// The motion of the runs that agree on its origin; what rows say of it is of the record as it stands.
-    fn own_motion(
-        &self,
-        made: MotionOrigin<'_>,
-        scaled: Option<&Result<Shaking, RunError>>,
-    ) -> Result<Shaking, RunError> {
-        let bare = match scaled {
-            Some(scaled) => scaled.clone()?,
-            None => {
-                let motion = made_motion(made.source)?;
-                let measures = self.measures.iter().map(|measure| measure.of(&motion)).collect();
-                let longest_step_s = longest_step_s(&motion);
-                Shaking { motion: PreparedMotion::new(motion), measures, longest_step_s }
-            }
-        };
-        if made.tail_s == 0.0 && made.turned_rad.is_none() {
-            return Ok(bare);
-        }
-        let motion = turned_with_tail(bare.motion.motion(), made.turned_rad, made.tail_s)?;
-        Ok(Shaking { motion: PreparedMotion::new(motion), ..bare })
-    }
-
-    /// The measures of a record at a level. Spectra are taken once a record: most measures of a
-    /// scaled motion follow from those of the record.
-    fn measures_of(&self, record: u64, scale: f64, scaled: &GroundMotion) -> Arc<[f64]> {
-        let Some((kept, record)) =
-            self.unscaled.get(record as usize).zip(self.records.get(record as usize))
-        else {
-            return Arc::default();
+    /// The measures of a record at a level, or of the motion that a model makes. Spectra are taken once a
+    /// record: most measures of a scaled motion follow from those of the record.
+    fn measures_of(&self, record: usize, scale: f64, scaled: &GroundMotion) -> Arc<[f64]> {
+        let Some((kept, record)) = self.unscaled.get(record).zip(self.records.get(record)) else {
+            return self.measures.iter().map(|measure| measure.of(scaled)).collect();
         };
         let of = |motion: &GroundMotion| {
             IntensityMeasures::of(motion).columns().map(|(.., value)| value)
@@ -301,21 +184,19 @@ impl Study {
     }
 }
 
-/// Kinds of warnings that a run gives without its certificate, each once.
-pub(super) fn warnings(
-    of_record: &[NoticeKind],
-    model: Option<&Model>,
-    response: &Response,
-) -> Vec<NoticeKind> {
-    let flat = model.and_then(|model| flat_geometry(model, &response.demands));
-    let flat = flat.map(|warning| warning.kind);
-    let gap = response.demands.gap_ratio.is_some_and(|ratio| ratio > 1.0);
-    let gap = gap.then_some(NoticeKind::GapExceeded);
-    let slides = response.demands.slip_count > 0 || response.demands.sliding_path_m > 0.0;
-    let gap = gap.into_iter().chain((!slides).then_some(NoticeKind::NothingSlides));
-    let of_solver = response.warnings.iter().map(|warning| warning.kind);
+/// Kinds of what is noticed of demands.
+pub(super) fn of_demands(demands: &Demands) -> Vec<NoticeKind> {
+    let exceeded = demands.gap_ratio.is_some_and(|ratio| ratio > 1.0);
+    let slides = demands.slip_count > 0 || demands.sliding_path_m > 0.0;
+    let kinds = [(exceeded, NoticeKind::GapExceeded), (!slides, NoticeKind::NothingSlides)];
+    kinds.into_iter().filter(|(holds, _)| *holds).map(|(_, kind)| kind).collect()
+}
+
+/// Kinds of warnings that a run gives without its certificate, each once: of record, model and motion, of its
+/// demands, of its response.
+pub(super) fn warnings(noticed: [Vec<NoticeKind>; 3]) -> Vec<NoticeKind> {
     let mut kinds = Vec::new();
-    for kind in of_record.iter().copied().chain(gap).chain(flat).chain(of_solver) {
+    for kind in noticed.into_iter().flatten() {
         if !kinds.contains(&kind) && kind.severity() != Severity::Note {
             kinds.push(kind);
         }
@@ -327,6 +208,7 @@ pub(super) fn warnings(
 mod tests {
     use super::*;
     use crate::input::plan::Plan;
+    use crate::model::Model;
     use crate::motion::target::maximum_direction;
     use crate::slider::Friction;
     use crate::solver;
@@ -458,11 +340,11 @@ mod tests {
             let keys = format!("measure = \"{measure}\"\nlevels = [\"1 m/s2\", \"{level} m/s2\"]");
             let study = of_pairs("separate", &keys);
             assert!(study.has_pairs() && study.runs() == 8);
-            let factor = |record| study.factor(Case { record, level: 1, sample: 0, bound: 0 });
+            let factor = |record: usize| study.factors[2 * record + 1];
             assert_eq!((factor(0), factor(2)), (factor(1), factor(3)));
             let measure = crate::motion::intensity::LevelMeasure::parse(measure).unwrap();
             for pair in study.records().chunks(2) {
-                let factor = factor(pair[0].pair.unwrap() as u64 * 2);
+                let factor = factor(pair[0].pair.unwrap() * 2);
                 let scaled = [0, 1].map(|i| pair[i].motion.scaled(factor).unwrap());
                 let found = measure.of(&scaled[0], Some(&scaled[1])).unwrap();
                 assert!((found / level - 1.0).abs() < 1e-12, "{measure}: {found}");
@@ -476,8 +358,11 @@ mod tests {
             for (row, (run, first)) in both.iter().zip([(0, "r0"), (1, "r0"), (4, "r2"), (5, "r2")])
             {
                 let alone = &rows(&study, run..run + 1)[0];
-                assert!((row.scale / alone.scale - 1.0).abs() < 1e-14, "{first}: {row:?}");
-                assert_eq!(together.records()[row.case.record as usize].name, first);
+                assert!(
+                    (row.case.scale / alone.case.scale - 1.0).abs() < 1e-14,
+                    "{first}: {row:?}"
+                );
+                assert_eq!(together.records()[row.case.record].name, first);
                 let verdict = together.verify(row);
                 assert!(verdict.holds(), "{verdict:?} {row:?}");
             }
@@ -550,9 +435,9 @@ mod tests {
              periods = [\"0.2 s\", \"2 s\"]\nscale = [1, 1.5]",
         );
         let matched = study.matched().unwrap();
-        let factor = |record, level| study.factor(Case { record, level, sample: 0, bound: 0 });
+        let factor = |record: usize, level: usize| study.factors[2 * record + level];
         for pair in 0..2 {
-            assert_eq!(factor(2 * pair, 0), matched.factors[pair as usize]);
+            assert_eq!(factor(2 * pair, 0), matched.factors[pair]);
             assert_eq!(factor(2 * pair + 1, 0), factor(2 * pair, 0));
             assert_eq!(factor(2 * pair, 1), 1.5 * factor(2 * pair, 0));
         }
@@ -571,7 +456,8 @@ mod tests {
         let study = study(vary, 20_000);
         let rows = rows(&study, 19_990..20_003);
         assert_eq!(rows.len(), 13);
-        assert_eq!(rows[12].case, Case { record: 0, level: 1, sample: 2, bound: 0 });
+        let Case { record, level, design, .. } = rows[12].case;
+        assert_eq!([record, level, design], [0, 1, 2]);
         assert!(rows.iter().all(|row| study.verify(row).holds()));
     }
 

@@ -1,8 +1,10 @@
 //! Statistics of a study by level and bound of friction: exact quantiles in memory that does not grow with the runs.
 
 use super::Study;
+use super::cases::tally;
 use super::engine::Engine;
 use crate::error::Stopped;
+use crate::input::Names;
 use crate::input::plan::Levels;
 use crate::numerics::sort;
 use crate::response::{DemandColumn, DemandKind};
@@ -21,7 +23,7 @@ const DIGIT_BITS: u32 = 11;
 #[derive(Clone, Debug, PartialEq)]
 pub struct LevelSummary {
     /// Index of the level, from 0.
-    pub level: u64,
+    pub level: usize,
     /// Value of the measure at the level, in SI; `None` where levels are factors.
     pub value: Option<f64>,
     /// The factor of the level, where levels are factors.
@@ -57,6 +59,8 @@ pub struct StudySummary {
     pub measure: Option<(String, &'static str)>,
     /// Level by level, demand by demand; residuals without their sign.
     pub rows: Vec<LevelSummary>,
+    /// What the block, the storeys and the points are called.
+    pub names: Names,
     /// Kinds of warnings, each with the number of runs that gave it and the first of those.
     pub warned: Vec<(String, u64, u64)>,
 }
@@ -146,10 +150,7 @@ impl Study {
         let mut warned: Vec<(String, u64, u64)> = Vec::new();
         (rows.warnings)(&mut |run, kinds| {
             for kind in kinds.split(';').filter(|kind| !kind.is_empty()) {
-                match warned.iter_mut().find(|(known, ..)| known == kind) {
-                    Some((_, runs, _)) => *runs += 1,
-                    None => warned.push((kind.to_owned(), 1, run)),
-                }
+                tally(&mut warned, kind, run);
             }
         })?;
         let demands = self.shape.columns().into_iter().enumerate();
@@ -169,15 +170,14 @@ impl Study {
             let each = figures.iter().zip(quantiles).enumerate();
             let rows = each.map(|(group, (figures, quantiles))| {
                 let (level, bound) = (group / self.bounds.len(), group % self.bounds.len());
-                let record = figures
-                    .max_run
-                    .and_then(|run| self.records.get(self.cases.case(run).record as usize));
+                let record =
+                    figures.max_run.and_then(|run| self.records.get(self.case(run).record));
                 let (runs, failures) = counts[group];
-                let value = self.level(level as u64);
+                let value = self.level(level);
                 LevelSummary {
-                    level: level as u64,
+                    level,
                     value,
-                    scale: value.is_none().then(|| self.level_factor(level as u64)),
+                    scale: value.is_none().then(|| self.level_factor(level)),
                     friction: self.has_bounds().then(|| self.bounds[bound].name),
                     demand: column,
                     runs,
@@ -206,7 +206,8 @@ impl Study {
             Levels::Measure { measure, .. } => Some((measure.to_string(), measure.unit())),
             Levels::Factors(_) => None,
         };
-        Ok(StudySummary { name: name.to_owned(), measure, rows, warned })
+        let names = self.variation.names();
+        Ok(StudySummary { name: name.to_owned(), measure, rows, names, warned })
     }
 }
 
@@ -218,8 +219,8 @@ impl Study {
 
     /// The level and bound of a run, as one number below [`Study::groups`].
     fn group(&self, run: u64) -> usize {
-        let case = self.cases.case(run);
-        case.level as usize * self.bounds.len() + case.bound as usize
+        let case = self.case(run);
+        case.level * self.bounds.len() + case.bound
     }
 }
 

@@ -1,8 +1,9 @@
 //! Rows under test: run again alone, from the model's text, with history and certificate.
 
-use super::engine::{Engine, made_motion, turned_with_tail};
+use super::cases::{Case, MotionOrigin, noticed_of};
+use super::engine::Engine;
 use super::notices::{highest_hz, longest_step_s, suspicious};
-use super::rows::warnings;
+use super::rows::{of_demands, warnings};
 use super::{Row, Study};
 use crate::check::{self, Certificate};
 use crate::error::{RunError, Stopped};
@@ -56,8 +57,8 @@ impl Study {
     /// Runs a row again as `slipstick run` would, and judges the response.
     #[must_use]
     pub fn verify(&self, row: &Row) -> Verdict {
-        let (analysis, motion) = match self.alone(row) {
-            Ok(pair) => pair,
+        let (analysis, motion, step_s) = match self.alone(row) {
+            Ok(alone) => alone,
             Err(error) => return failed_again(row, &error),
         };
         let response = match solver::exact(&analysis.model, &motion) {
@@ -66,17 +67,17 @@ impl Study {
         };
         let certificate = check::check(&analysis.model, &motion, &response);
         let bits = |values: &[f64]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
-        let step_s = match self.records.get(row.case.record as usize) {
-            Some(record) => longest_step_s(&record.motion),
-            None => made_motion(analysis.motion.as_ref()).map_or(0.0, |made| longest_step_s(&made)),
-        };
         let suspicious: Vec<_> =
             suspicious(&analysis.model).into_iter().map(|warning| warning.kind).collect();
         let highest_hz = highest_hz(&analysis.model);
         let noticed = self.noticed(row.case, &suspicious, highest_hz, step_s);
         let same = row.error.is_none()
             && bits(&self.demands(&response)) == bits(&row.demands)
-            && warnings(&noticed, Some(&analysis.model), &response) == row.warnings;
+            && warnings([
+                noticed,
+                of_demands(&response.demands),
+                noticed_of(&analysis.model, &response),
+            ]) == row.warnings;
         let holds = certificate.holds();
         let Certificate {
             equilibrium_residual,
@@ -95,17 +96,21 @@ impl Study {
         }
     }
 
-    /// The analysis and the motion of a row, made from the text and the record.
-    fn alone(&self, row: &Row) -> Result<(Analysis, GroundMotion), RunError> {
-        let values = self.design.values(row.case.sample);
+    /// The analysis and the motion of a row, made from the text and the record, and the longest step of the
+    /// motion without its tail.
+    fn alone(&self, row: &Row) -> Result<(Analysis, GroundMotion, f64), RunError> {
+        let case = self.case(row.run);
+        let Case { record, design, scale, .. } = case;
+        let values = self.design.values(design as u64);
         let mut analysis = self.variation.analysis(&values)?;
-        analysis.model = self.bound(row.case).of(&analysis.model);
-        let motion = match self.records.get(row.case.record as usize) {
-            Some(record) => record.motion.scaled(self.factor(row.case))?,
-            None => made_motion(analysis.motion.as_ref())?,
-        };
-        let motion = turned_with_tail(&motion, self.turned_rad(&values), analysis.tail_s)?;
-        Ok((analysis, motion))
+        analysis.model = self.bound(&case).of(&analysis.model);
+        let (turned_rad, tail_s) = (self.turned_rad(&values), analysis.tail_s);
+        let source = analysis.motion.as_ref();
+        let origin = MotionOrigin { record, scale, source, turned_rad, tail_s };
+        let bare = origin.bare(&self.records)?;
+        let step_s = longest_step_s(&bare);
+        let motion = origin.finished(bare)?;
+        Ok((analysis, motion, step_s))
     }
 }
 

@@ -20,21 +20,20 @@ impl OpenStudy {
                 found: run.to_string(),
             });
         }
-        let case = self.study.cases().case(run);
+        let case = self.study.case(run);
         let mut words = vec!["slipstick".to_owned(), "run".to_owned()];
         words.push(self.model_path.display().to_string());
         let mut set = Vec::new();
         if let Some(records) = &self.plan.records {
-            let factor = self.study.factor(case);
-            self.record(case.record as usize, factor, records, (&mut words, &mut set));
+            self.record(case.record, case.scale, records, (&mut words, &mut set));
         }
-        let varied = self.study.overrides(case);
+        let varied = self.study.overrides(&case);
         set.extend(varied.map_err(|error| StudyError::input(error, ""))?);
         for pair in set {
             words.extend(["--set".to_owned(), pair]);
         }
         let line = words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ");
-        Ok(match self.study.bound(case).name {
+        Ok(match self.study.bound(&case).name {
             "nominal" => line,
             name => {
                 format!("{line}  # the row is that of {name} friction, bounds.{name} of --json")

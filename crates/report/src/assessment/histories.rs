@@ -8,7 +8,7 @@ use slipstick::assessment::code::{Plan, PropertyFactors};
 use slipstick::assessment::histories::{Histories, ModelHistories, OnRecord, RECORDS_OF_A_MEAN};
 use slipstick::assessment::lateral::LEAST_TOTAL;
 use slipstick::assessment::suite::{Recorded, condensed};
-use slipstick::input::{Bound, Names};
+use slipstick::input::Bound;
 use slipstick::notice::{Notice, NoticeKind};
 use slipstick::response::{DemandColumn, DemandOf};
 use slipstick::table::{self, Cells, Column};
@@ -287,25 +287,9 @@ impl HistoriesReport<'_> {
 
     /// A demand's title, with what the block or the storey is called in all models.
     fn title(&self, column: &DemandColumn) -> String {
-        let title = column.title();
-        let (what, storey) = match column.demand.of {
-            DemandOf::Storey => (format!("Storey {}", column.part), column.part),
-            DemandOf::Point => (format!("Point {}", column.part), column.part),
-            _ => ("Block".to_owned(), 0),
-        };
-        let name = |names: &Names| match storey {
-            0 => names.block.clone(),
-            point if column.demand.of == DemandOf::Point => names.points.get(point - 1).cloned(),
-            storey => names.storeys.get(storey - 1).cloned().flatten(),
-        };
-        let mut names = self.histories.models.iter().map(|model| name(&model.names));
-        let first = names.next().flatten();
-        match (first, title.strip_prefix(&what)) {
-            (Some(first), Some(rest)) if names.all(|other| other.as_ref() == Some(&first)) => {
-                format!("{first}{rest}")
-            }
-            _ => title,
-        }
+        let mut titles = self.histories.models.iter().map(|model| model.names.title(column));
+        let first = titles.next().filter(|first| titles.all(|other| other == *first));
+        first.unwrap_or_else(|| column.title())
     }
 
     /// What was run, what governs beside the hand's calculation, a table a demand, and how pairs were brought

@@ -118,7 +118,7 @@ impl StudyReport<'_> {
             let number = |text: String| format!("{text} {}", unit.symbol).trim_end().to_owned();
             Some(format!(
                 "{} {}: median {} (16 to 84 %: {low} to {}), largest {} ({}, run {}).",
-                demand.title(),
+                self.summary.names.title(&demand),
                 self.at(row),
                 number(middle),
                 number(high),
@@ -195,7 +195,7 @@ impl StudyReport<'_> {
                 let first = std::iter::once(level(self.summary, row, self.display));
                 rows.push(first.chain(friction).chain(cells).collect());
             }
-            (unit.label(&demand.title()), rows)
+            (unit.label(&self.summary.names.title(&demand)), rows)
         };
         let demands = shown(self.summary).into_iter().filter(|d| !self.rows(*d).is_empty());
         let matched = self.study.matched().map(|matched| pairs::table(self.pairs(), matched));
@@ -282,7 +282,7 @@ impl StudyReport<'_> {
         };
         let x = Axis::from_zero(at.label(&name), rows.iter().map(|row| at.of(level_number(row))));
         let all = series.iter().flat_map(|s| s.points.iter().map(|p| p[1])).collect::<Vec<_>>();
-        let y = Axis::from_zero(unit.label(&demand.title()), all);
+        let y = Axis::from_zero(unit.label(&self.summary.names.title(&demand)), all);
         panel(x, y, 170.0, series)
     }
 
@@ -302,7 +302,7 @@ impl StudyReport<'_> {
             }
         }
         let all: Vec<f64> = series.iter().flat_map(|s| s.points.iter().map(|p| p[0])).collect();
-        let x = Axis::from_zero(unit.label(&demand.title()), all);
+        let x = Axis::from_zero(unit.label(&self.summary.names.title(&demand)), all);
         panel(x, Axis::linear("Share of the runs (%)".to_owned(), 0.0, 100.0), 150.0, series)
     }
 

@@ -5,6 +5,7 @@ use super::{ModelHistories, ModelOn, OnRecord, judged};
 use crate::error::RunError;
 use crate::input::{Analysis, Bound};
 use crate::motion::GroundMotion;
+use crate::study::cases::Case;
 use crate::study::engine::Engine;
 
 /// What the two components of a pair say where each is run by itself: peak sliding displacements in m.
@@ -57,11 +58,11 @@ impl ModelHistories {
 /// What the components of a record in two directions say by themselves, where it is one.
 pub(super) fn of(
     model: &ModelOn<'_>,
-    record: usize,
-    (scale, bound): (f64, &Bound),
+    case: &Case,
+    bound: &Bound,
     engine: &Engine<'_>,
 ) -> Result<Option<Alone>, RunError> {
-    let motion = model.suite.motion(record, scale, 0.0)?;
+    let motion = model.suite.motion(case.record, case.scale, 0.0)?;
     if motion.horizontal_y_m_per_s2().is_none() {
         return Ok(None);
     }
