@@ -183,7 +183,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_outputs_are_replaced() {
+    fn outputs_are_replaced() {
         let page = "a\n<!-- run: hidden -->\n```text\n$ one \\\n  two\nold\n$ three\n1\n…\n4\n```\n\
                     ```toml\nx = 1\n```\n";
         let mut commands = Vec::new();

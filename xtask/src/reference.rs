@@ -81,7 +81,7 @@ fn table(cases: &Value, said: &BTreeMap<&str, Said<'_>>) -> Result<String, Strin
         let Said { test, figures, worst, tolerance, what } =
             said.get(id.as_str()).ok_or_else(|| format!("no test has spoken for case {id}"))?;
         let digits = if id.starts_with("BIDI") { "34-digit solution" } else { "50-digit solution" };
-        let truth = if test.starts_with("exact_") { "closed form" } else { digits };
+        let truth = if test.starts_with("closed_form_") { "closed form" } else { digits };
         let title = word("title");
         let what = what.replace('|', "\\|");
         writeln!(
@@ -98,8 +98,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_line_of_a_test_becomes_a_row() {
-        let log = "running 1 test\n---- exact_harm stdout ----\n\
+    fn a_line_of_a_test_becomes_a_row() {
+        let log = "running 1 test\n---- closed_form_harm stdout ----\n\
                    case HARM: 7 figures, worst 1.2e-3 of its tolerance 4.9e-11 (peak |z|)\n";
         let cases = serde_json::json!({ "cases": [{ "id": "HARM", "title": "a=A sin" }] });
         let table = table(&cases, &said(log)).expect("a table");
@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_case_without_a_test_is_an_error() {
+    fn a_case_without_a_test_is_an_error() {
         let cases = serde_json::json!({ "cases": [{ "id": "HARM" }] });
         let error = table(&cases, &said("")).expect_err("no row");
         assert_eq!(error, "no test has spoken for case HARM");

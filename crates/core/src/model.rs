@@ -590,7 +590,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_stops_are_checked() {
+    fn stops_are_checked() {
         let stop = Stop::elastic;
         let good = stop([Some(0.1), None], 1e5, 0.0);
         let model = with(good).unwrap();

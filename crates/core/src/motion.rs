@@ -314,7 +314,7 @@ mod tests {
 
     /// Squares of what is computed with are finite.
     #[test]
-    fn exact_accelerations_are_of_some_size() {
+    fn accelerations_are_of_some_size() {
         let of =
             |a| GroundMotion::evenly_spaced(1.0, vec![0.0, a], None).map_err(|e| e.to_string());
         assert_eq!(
@@ -326,7 +326,7 @@ mod tests {
 
     /// A few samples cannot last for days: work grows with the duration.
     #[test]
-    fn exact_durations_are_in_proportion_to_the_samples() {
+    fn durations_are_in_proportion_to_the_samples() {
         // 5 samples may last 4 × 1000 s.
         assert_eq!(refused(&[0.0, 0.01, 0.02, 0.03, 1e5]), Some((4, 4000.0)));
         assert_eq!(refused(&[0.0, 0.01, 2e9, 2e9 + 0.01, 2e9 + 0.02]), Some((2, 4000.0)));

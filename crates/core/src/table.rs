@@ -272,7 +272,7 @@ mod tests {
 
     /// What a spreadsheet would run stands behind an apostrophe, and is read back as it was.
     #[test]
-    fn exact_cells_that_are_formulas() {
+    fn cells_that_are_formulas() {
         for (text, cell) in [
             ("=HYPERLINK(\"x\")", "'=HYPERLINK(\"x\")"),
             ("+cmd", "'+cmd"),
@@ -292,7 +292,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_columns_are_found_by_name_and_kind() {
+    fn columns_are_found_by_name_and_kind() {
         let mut table = Table::default();
         table
             .numbers("level", "m/s2", vec![1.0, f64::NAN])
@@ -309,7 +309,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_numbers_as_cells_of_each_kind_and_back() {
+    fn numbers_as_cells_of_each_kind_and_back() {
         let values = [0.0, 3.0, f64::NAN];
         let cells = |kind| Cells::of_numbers(kind, values.into_iter());
         assert_eq!(cells(Kind::Count), Cells::Counts(vec![Some(0), Some(3), None]));

@@ -174,7 +174,7 @@ fn bits(r: &Response, sign: f64) -> Vec<u64> {
 }
 
 #[test]
-fn exact_bits_know_no_side_no_history_and_no_instruction_set() {
+fn bits_know_no_side_no_history_and_no_instruction_set() {
     for seed in 0..200 {
         let system = system(seed);
         let Ok(response) = exact(&system.model, &level(&system, 1.0)) else { continue };

@@ -23,7 +23,7 @@ fn model(storeys: usize, tilt_rad: f64) -> Model {
 }
 
 #[test]
-fn exact_a_run_allocates_its_answer_alone() {
+fn a_run_allocates_its_answer_alone() {
     let shake = |i: usize| 2.0 * libm::sin(0.07 * i as f64) * libm::sin(0.003 * i as f64);
     let values: Vec<f64> = (0..3000).map(shake).collect();
     let upwards: Vec<f64> = values.iter().rev().map(|a| 0.5 * a).collect();

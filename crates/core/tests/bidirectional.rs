@@ -196,12 +196,12 @@ macro_rules! cases {
 }
 
 cases! {
-    exact_push_stop: "BIDI-PUSH-STOP",
-    exact_near_miss: "BIDI-NEAR-MISS",
-    exact_circle: "BIDI-CIRCLE",
+    closed_form_push_stop: "BIDI-PUSH-STOP",
+    closed_form_near_miss: "BIDI-NEAR-MISS",
+    closed_form_circle: "BIDI-CIRCLE",
     reference_ellipse: "BIDI-ELLIPSE",
     reference_sines_equal: "BIDI-SINES-EQUAL",
-    exact_release: "BIDI-RELEASE",
+    closed_form_release: "BIDI-RELEASE",
     reference_many_stops: "BIDI-MANY-STOPS",
     reference_jumps: "BIDI-JUMPS",
     reference_free_pendulum: "BIDI-FREE-PENDULUM",

@@ -120,7 +120,7 @@ fn prop_two_equal_items_are_one_of_their_mass_in_many_models() {
 
 /// Block and contents with one coefficient slide as one: neither lets the other go.
 #[test]
-fn exact_contents_with_the_sliders_friction_stay() {
+fn contents_with_the_sliders_friction_stay() {
     for (mu, mass_kg) in [(0.1, 20.0), (0.05, 50.0), (0.15, 160.0)] {
         for list in [
             [0.0, -0.2, -3.7, 0.4, 2.9],
@@ -143,7 +143,7 @@ fn exact_contents_with_the_sliders_friction_stay() {
 
 /// Contents slide at 0.065 g, where the block could still hold them: the block keeps still.
 #[test]
-fn exact_contents_that_let_go_hold_the_block_back() {
+fn contents_that_let_go_hold_the_block_back() {
     let slider = friction([0.438, 0.373]);
     let model = model(&slider, &contents(7.4, [0.066; 2]));
     let jump = response(&model, &ground(&[0.0, 0.5, 1.0], &[4.3, 4.3, 0.0], None));
@@ -223,7 +223,7 @@ fn prop_a_jump_is_the_limit_of_steep_ramps_in_many_models() {
 
 /// Vertical motion that takes the contact away, and nothing that pushes: nothing slides.
 #[test]
-fn exact_contact_lost_without_horizontal_motion_moves_nothing() {
+fn contact_lost_without_horizontal_motion_moves_nothing() {
     let motion = ground(&[0.0, 1.0, 2.0, 3.0], &[0.0; 4], Some(&[0.0, -30.0, -12.0, 5.0]));
     let slider = friction([0.2, 0.15]);
     for (slider, more) in [
@@ -240,7 +240,7 @@ fn exact_contact_lost_without_horizontal_motion_moves_nothing() {
 
 /// The same for a block alone, wherever in its interval contact is lost.
 #[test]
-fn exact_contact_lost_anywhere_moves_nothing() {
+fn contact_lost_anywhere_moves_nothing() {
     let block = model(&friction([0.2; 2]), "");
     for depth in 10..60 {
         let up = [0.0, -f64::from(depth), -f64::from(depth)];
@@ -286,7 +286,7 @@ fn prop_tiny_motions_across_lost_contact_do_not_chatter() {
 
 /// Pressed against a rigid stop from the start: in contact all the time.
 #[test]
-fn exact_rest_at_a_rigid_stop_from_the_start_is_contact() {
+fn rest_at_a_rigid_stop_from_the_start_is_contact() {
     let stop = "[slider.stop]\ngap = { positive = \"0.1 m\", negative = \"0.1 m\" }\n\
                 restitution = 0.5\n[initial]\nsliding_displacement = \"0.1 m\"\n";
     let model = model(&friction([0.1; 2]), stop);
@@ -297,7 +297,7 @@ fn exact_rest_at_a_rigid_stop_from_the_start_is_contact() {
 
 /// A vertical record of zeros is none.
 #[test]
-fn exact_vertical_zeros_change_nothing() {
+fn vertical_zeros_change_nothing() {
     let text = format!("{}\nradius = \"2 m\"\ntilt = \"60 mrad\"", friction([0.05, 0.04]));
     let model = model(&text, "");
     let times_s: Vec<f64> = (0..200).map(|k| 0.02 * f64::from(k)).collect();
@@ -309,7 +309,7 @@ fn exact_vertical_zeros_change_nothing() {
 
 /// Both sides of a jump count, at the very end too: what is asked of friction there, and what lets go.
 #[test]
-fn exact_a_jump_at_the_end_counts() {
+fn a_jump_at_the_end_counts() {
     let held = friction([0.2, 0.2]);
     let plain = model(&held, "");
     let loaded = model(&held, &contents(20.0, [0.5, 0.4]));
@@ -333,7 +333,7 @@ fn exact_a_jump_at_the_end_counts() {
 /// The same at the very start, where a time that stands twice has two values: what slides between them
 /// has no time to.
 #[test]
-fn exact_a_jump_at_the_start_counts() {
+fn a_jump_at_the_start_counts() {
     let held = friction([0.2, 0.2]);
     let plain = model(&held, "");
     let loaded = model(&held, &contents(20.0, [0.5, 0.4]));
@@ -356,7 +356,7 @@ fn exact_a_jump_at_the_start_counts() {
 /// Peaks at the first and the last instant with what is not stored at knots: a pendulum whose spring
 /// follows the normal force, a block pressed against a rigid stop, contact made at the start.
 #[test]
-fn exact_outputs_beside_a_jump_are_certified() {
+fn outputs_beside_a_jump_are_certified() {
     let pieces = "static_friction = 0.24\nradius = \"2 m\"\n\
                   kinetic_friction = { velocity = [\"0 m/s\", \"0.1 m/s\"], coefficient = [0.24, 0.16] }";
     let start = |s: &str, w: &str| {
@@ -396,7 +396,7 @@ fn exact_outputs_beside_a_jump_are_certified() {
 /// Two spikes within a hair of time let the block go: all that it spends lies between instants that are
 /// rounded.
 #[test]
-fn exact_spikes_of_any_length_are_certified() {
+fn spikes_of_any_length_are_certified() {
     let model = model(&friction([0.1, 0.08]), &contents(40.0, [0.2, 0.15]));
     for length_s in [1e-5, 1e-7, 1e-9, 1e-11, 1e-13] {
         let times_s = [0.0, 1.0, 2.0, 3.0].map(|k| 0.5 + k * length_s);
@@ -410,7 +410,7 @@ fn exact_spikes_of_any_length_are_certified() {
 
 /// A jump at the start that only lets the block go on is no decision.
 #[test]
-fn exact_a_slip_that_goes_on_decides_nothing() {
+fn a_slip_that_goes_on_decides_nothing() {
     let block = friction([0.1; 2]);
     for more in [
         "",
@@ -428,7 +428,7 @@ fn exact_a_slip_that_goes_on_decides_nothing() {
 /// `ṡ = w − μ g t − a₀ t + (a₀ − a₁) t²/(2 T)` falls below zero at 0.265 T, and at 0.628 T friction no
 /// longer holds −a.
 #[test]
-fn exact_stop_and_release_within_a_steep_ramp() {
+fn stop_and_release_within_a_steep_ramp() {
     let block = friction([0.1; 2]);
     for ramp_s in [1e-3, 1e-6, 1e-9, 1e-12] {
         let start = format!("[initial]\nsliding_velocity = \"{:e} m/s\"\n", 0.5 * ramp_s);
@@ -449,7 +449,7 @@ fn exact_stop_and_release_within_a_steep_ramp() {
 
 /// Friction that grows with the normal force up to the instant at which the block strikes a rigid stop.
 #[test]
-fn exact_a_peak_on_arrival_at_a_rigid_stop_is_certified() {
+fn a_peak_on_arrival_at_a_rigid_stop_is_certified() {
     let stop = "[slider.stop]\ngap = \"0.3 m\"\nrestitution = 0.0\n\
                 [initial]\nsliding_velocity = \"1 m/s\"\n";
     let model = model(&friction([0.1; 2]), stop);
@@ -465,7 +465,7 @@ fn exact_a_peak_on_arrival_at_a_rigid_stop_is_certified() {
 
 /// Bounces that carry contents along die out; the last ends within the rounding of `s` off the stop.
 #[test]
-fn regress_last_bounces_under_contents_raise_no_alarm() {
+fn last_bounces_under_contents_raise_no_alarm() {
     let horizontal = [
         0.0, 0.0, 0.0, 0.063, 2.167, 1.276, 0.895, 0.0, 0.524, -1.404, 0.877, -1.387, -1.13, 3.308,
         -0.138, 0.0, 0.561, -0.646, 1.157, -3.725, -0.602, -0.61, 0.911, 2.98,

@@ -89,7 +89,7 @@ fn difference(stored: &[f64], found: &[[f64; 2]]) -> f64 {
 }
 
 #[test]
-fn regress_demands_are_those_stored() {
+fn demands_are_those_stored() {
     let mut lines = STORED.lines().filter(|line| !line.starts_with('#')).peekable();
     let (mut failures, mut compared) = (Vec::new(), 0);
     for (name, model, motion) in systems() {

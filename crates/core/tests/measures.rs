@@ -169,7 +169,7 @@ fn peer_baselines_and_taper_by_numpy() {
 
 /// The same straight lines sampled five times finer have the same measures.
 #[test]
-fn exact_subdivision_changes_no_measure() {
+fn subdivision_changes_no_measure() {
     let motion = record("el-centro-180.txt");
     let (dt_s, a) = (0.01, motion.horizontal_m_per_s2());
     let fine = a.windows(2).flat_map(|p| (0..5).map(|k| p[0] + (p[1] - p[0]) * f64::from(k) / 5.0));

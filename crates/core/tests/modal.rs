@@ -46,7 +46,7 @@ fn is_the_building(table: &ModalTable, of_mass: f64, of_sums: f64) {
 }
 
 #[test]
-fn exact_modes_in_the_layout_of_sap2000() {
+fn modes_in_the_layout_of_sap2000() {
     let table = read(SAP2000);
     // Nine ratios of six decimals; factors of six decimals times shapes of nine.
     is_the_building(&table, 4.5e-6, 1e-6);
@@ -62,7 +62,7 @@ fn exact_modes_in_the_layout_of_sap2000() {
 }
 
 #[test]
-fn exact_modes_in_the_layout_of_etabs_with_decimals_after_a_comma() {
+fn modes_in_the_layout_of_etabs_with_decimals_after_a_comma() {
     let table = read(ETABS);
     // Nine ratios of four decimals.
     is_the_building(&table, 4.5e-4, 1e-6);
@@ -81,7 +81,7 @@ fn exact_modes_in_the_layout_of_etabs_with_decimals_after_a_comma() {
 }
 
 #[test]
-fn exact_tables_may_stand_in_several_files() {
+fn tables_may_stand_in_several_files() {
     let parts: Vec<String> =
         SAP2000.split("TABLE:").skip(1).map(|part| format!("TABLE:{part}")).collect();
     let files: Vec<(&str, &str)> = parts.iter().map(|part| ("part.csv", part.as_str())).collect();
@@ -90,7 +90,7 @@ fn exact_tables_may_stand_in_several_files() {
 }
 
 #[test]
-fn exact_ratios_alone_have_no_signs_and_say_so() {
+fn ratios_alone_have_no_signs_and_say_so() {
     let start = SAP2000.find("TABLE:  \"Modal Participating").expect("ratios");
     let end = SAP2000.find("TABLE:  \"Modal Participation F").expect("factors");
     let table = read(&SAP2000[start..end]);
@@ -103,7 +103,7 @@ fn exact_ratios_alone_have_no_signs_and_say_so() {
 }
 
 #[test]
-fn exact_table_of_ours_reads_back_as_it_was_written() {
+fn table_of_ours_reads_back_as_it_was_written() {
     let written = read(SAP2000);
     let read = read_modes(&[("modes.csv", &written.to_csv())], &ModalOptions::default());
     let read = read.expect("a table");
@@ -127,7 +127,7 @@ fn exact_table_of_ours_reads_back_as_it_was_written() {
 
 /// Four digits are printed: the sum of what was rounded is divided away, and that is said.
 #[test]
-fn exact_sums_that_rounding_alone_lifts_above_one() {
+fn sums_that_rounding_alone_lifts_above_one() {
     let text = "Case,Mode,Period,UX,UY,SumUX\n,,sec,,,\nModal,1,0.5,0.9001,0.9,0.9\nModal,2,0.1,0.1000,0,1\n";
     let table = read(text);
     assert_eq!(table.modes[1].shares[0], Some(Share::Ratio(0.1 / (0.9001 + 0.1))));
@@ -135,7 +135,7 @@ fn exact_sums_that_rounding_alone_lifts_above_one() {
 }
 
 #[test]
-fn exact_faults_of_exported_tables_are_told_where_they_are() {
+fn faults_of_exported_tables_are_told_where_they_are() {
     let good = "TABLE: Modal Participating Mass Ratios\nCase,Mode,Period,UX,UY,UZ\n,,sec,,,\n\
                 Modal,1,0.5,0.8,0,0\nModal,2,0.2,0.15,0,0\n";
     assert_eq!(read(good).modes.len(), 2);

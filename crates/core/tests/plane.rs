@@ -407,7 +407,7 @@ fn prop_without_kinetic_friction_a_line_is_one_direction() {
 
 /// Without anything along y the solver in one direction runs: not a bit differs.
 #[test]
-fn exact_nothing_along_y_gives_the_bits_of_one_direction() {
+fn nothing_along_y_gives_the_bits_of_one_direction() {
     for seed in 0..20 {
         let mut system = System::random(seed, false).along_a_line(0.0);
         system.table[1].fill(0.0);
@@ -475,7 +475,7 @@ fn prop_systems_of_one_coefficient_are_certified() {
 }
 
 #[test]
-fn exact_what_does_not_move_in_two_directions_is_refused() {
+fn what_does_not_move_in_two_directions_is_refused() {
     let system = System::random(1, true);
     let model = system.model();
     let slider = Slider { tilt_rad: 0.01, ..model.slider().clone() };

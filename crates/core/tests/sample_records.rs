@@ -30,7 +30,7 @@ fn motion_g() -> Vec<f64> {
 }
 
 #[test]
-fn exact_every_sample_is_the_same_motion() {
+fn every_sample_is_the_same_motion() {
     let nothing = Options::default();
     for (name, options, understood) in [
         ("nga-west2.AT2", &nothing, "PEER AT2, 24 values, 0.02 s, g"),
@@ -59,7 +59,7 @@ fn exact_every_sample_is_the_same_motion() {
 }
 
 #[test]
-fn exact_what_the_samples_say_beside_their_values() {
+fn what_the_samples_say_beside_their_values() {
     let record = read("peer-1999.AT2", &Options::default());
     let channel = &record.channels[0];
     assert_eq!(channel.event.as_deref(), Some("MADE UP 01/01/00 0000"));
@@ -77,7 +77,7 @@ fn exact_what_the_samples_say_beside_their_values() {
 }
 
 #[test]
-fn exact_velocity_file_is_the_integral_of_the_acceleration_file() {
+fn velocity_file_is_the_integral_of_the_acceleration_file() {
     let velocity = read("velocity.VT2", &Options::default());
     assert_eq!(velocity.layout, "PEER VT2");
     let mut integral = 0.0;
@@ -91,7 +91,7 @@ fn exact_velocity_file_is_the_integral_of_the_acceleration_file() {
 /// The acceleration channels of the files of networks are the same motion, to the digits that their
 /// formats have; vertical ones are minus half of it.
 #[test]
-fn exact_every_format_holds_the_same_motion() {
+fn every_format_holds_the_same_motion() {
     let nothing = Options::default();
     for (name, layout, channel, factor, digit_g) in [
         ("csmip.V1", "CSMIP V1, 2 channels", "90 Deg", 1.0, 1e-6),
@@ -125,7 +125,7 @@ fn exact_every_format_holds_the_same_motion() {
 
 /// Velocity and displacement of a corrected volume are channels of their own.
 #[test]
-fn exact_parts_of_a_volume_are_channels() {
+fn parts_of_a_volume_are_channels() {
     let mut velocity = vec![0.0];
     let a = motion_g();
     for k in 1..24 {
@@ -151,7 +151,7 @@ fn exact_parts_of_a_volume_are_channels() {
 
 /// Counts are no motion until the caller says what one of them is.
 #[test]
-fn exact_counts_need_the_value_of_one() {
+fn counts_need_the_value_of_one() {
     let record = read("cosmos-counts.V0c", &Options::default());
     let channel = &record.channels[0];
     assert_eq!(record.describe(channel), "COSMOS v1, 1 channel, 24 values, 0.02 s, counts");
@@ -166,7 +166,7 @@ fn exact_counts_need_the_value_of_one() {
 /// Every count, step and unit that a header states, changed: refused, another channel, or a
 /// warning; never the same record.
 #[test]
-fn exact_changed_headers_are_never_overlooked() {
+fn changed_headers_are_never_overlooked() {
     for (name, changes) in [
         (
             "csmip.V1",
@@ -284,7 +284,7 @@ fn exact_changed_headers_are_never_overlooked() {
 }
 
 #[test]
-fn exact_rectangle_keeps_its_jumps() {
+fn rectangle_keeps_its_jumps() {
     let record = read("rectangle.csv", &Options::default());
     let times_s = vec![0.0, 0.5, 0.5, 1.5, 1.5, 2.25];
     assert_eq!(record.channels[0].sampling, Sampling::Times(times_s));
@@ -293,7 +293,7 @@ fn exact_rectangle_keeps_its_jumps() {
 }
 
 #[test]
-fn exact_truncated_sample_is_refused() {
+fn truncated_sample_is_refused() {
     let bytes = fs::read(root().join("data/records/truncated.AT2")).unwrap();
     let error = record::read("truncated.AT2", &bytes, &Options::default()).unwrap_err();
     assert_eq!((error.line, error.expected.as_str()), (9, "24 values, as line 4 says"));
@@ -301,7 +301,7 @@ fn exact_truncated_sample_is_refused() {
 
 /// Values of the USGS collection, and the figures that its readers know these records by.
 #[test]
-fn exact_records_of_the_examples() {
+fn records_of_the_examples() {
     for (name, values, pga_g, pgv_cm_per_s) in [
         ("taft-111.txt", 5211, 0.177_794, 17.87),
         ("taft-021.txt", 5266, 0.155_955, 15.45),

@@ -397,7 +397,7 @@ fn bits_of_history(r: &Response) -> Vec<Vec<u64>> {
 }
 
 #[test]
-fn exact_bits_are_the_same_by_every_instruction_set() {
+fn bits_are_the_same_by_every_instruction_set() {
     let all = InstructionSet::all();
     assert!(!all.is_empty());
     let draw = |seed: u64| match seed {
@@ -421,7 +421,7 @@ fn exact_bits_are_the_same_by_every_instruction_set() {
 }
 
 #[test]
-fn exact_history_changes_no_bit() {
+fn history_changes_no_bit() {
     for seed in 0..400 {
         let (model, motion) = shaken(&mut Random::new(seed)).build();
         let with = solver::exact(&model, &motion).expect("a response");
@@ -431,7 +431,7 @@ fn exact_history_changes_no_bit() {
 }
 
 #[test]
-fn exact_sharing_and_foreign_steps_change_no_bit() {
+fn sharing_and_foreign_steps_change_no_bit() {
     for seed in 0..200 {
         let (model, motion) = shaken(&mut Random::new(seed)).build();
         let fresh = bits(&solver::exact_demands(&model, &motion).expect("a response"));
@@ -447,7 +447,7 @@ fn exact_sharing_and_foreign_steps_change_no_bit() {
 
 /// Everything turned round gives the same numbers, the never-slid residual of −0 included.
 #[test]
-fn exact_mirrored_systems_give_mirrored_numbers() {
+fn mirrored_systems_give_mirrored_numbers() {
     for seed in 0..1000 {
         let sketch = shaken(&mut Random::new(seed));
         let mut other = sketch.clone();
@@ -487,7 +487,7 @@ fn exact_mirrored_systems_give_mirrored_numbers() {
 /// An undamped storey swings on a stuck block: `q = v₀/ω sin ωt`, whatever sample of a block the
 /// peak follows, the first of all included.
 #[test]
-fn exact_peak_after_any_sample_of_a_block() {
+fn peak_after_any_sample_of_a_block() {
     for k in 0..40 {
         let mut x = Sketch::block(0.5, 0.5);
         x.masses = vec![32.0];
@@ -512,7 +512,7 @@ fn exact_peak_after_any_sample_of_a_block() {
 /// A rigid block on a spring slides from `w₀` to its stop at `s`, `½ w₀² = ½ k s² + f s`; its
 /// acceleration, which is `f` alone without a spring, is largest there: `k s + f`.
 #[test]
-fn exact_acceleration_of_a_rigid_block_on_a_spring() {
+fn acceleration_of_a_rigid_block_on_a_spring() {
     let mut x = Sketch::block(0.05, 0.05);
     (x.w, x.spring) = (0.5, 128.0 * 9.0);
     x.times = (0..200).map(|i| f64::from(i) * 0.01).collect();
@@ -548,7 +548,7 @@ fn peer_general_way_on_slips_that_grow() {
 /// A block on a spring and a damper slides out from `s = 0` to its stop: while it slides
 /// `s̈ = −(f + K1 s + C1 ṡ)/M1`, which is the slider force, with its peak between samples.
 #[test]
-fn exact_slider_force_of_a_block_on_a_spring_and_a_damper() {
+fn slider_force_of_a_block_on_a_spring_and_a_damper() {
     for k in 0..24 {
         let mut x = Sketch::block(0.5, 0.02);
         // Per unit of mass K1 = 9 and C1 = 2, so that y = s + f/9 turns at √8 rad/s and fades by e^−t.
@@ -576,7 +576,7 @@ fn exact_slider_force_of_a_block_on_a_spring_and_a_damper() {
 
 /// A jump amid what would be a block: the block that just holds before it slips right after.
 #[test]
-fn exact_jump_amid_a_block() {
+fn jump_amid_a_block() {
     for at in 1..20 {
         let mut x = Sketch::block(0.1, 0.1);
         x.times = (0..=at).map(|i| f64::from(i) * 0.125).collect();

@@ -26,7 +26,7 @@ fn on(slider: Slider) -> Model {
 }
 
 #[test]
-fn exact_what_excludes_another_is_refused() {
+fn what_excludes_another_is_refused() {
     let block = || Model::builder().block("1 t");
     let stop = Stop::rigid([Some(0.1); 2], 0.5);
     assert!(block().surfaces(surfaces()).build().is_ok());
@@ -43,7 +43,7 @@ fn exact_what_excludes_another_is_refused() {
 }
 
 #[test]
-fn exact_coefficients_are_those_at_rest_and_of_the_first_surface_to_slide() {
+fn coefficients_are_those_at_rest_and_of_the_first_surface_to_slide() {
     let model = on(Slider::new(by_speed(0.04, 0.06)));
     assert_eq!([model.static_friction(), model.kinetic_friction()], [[0.04; 2], [0.03, 0.015]]);
     let model = on(Slider::in_series(surfaces()));
@@ -59,7 +59,7 @@ fn exact_coefficients_are_those_at_rest_and_of_the_first_surface_to_slide() {
 }
 
 #[test]
-fn exact_a_pendulum_is_a_spring_of_its_weight_over_its_radius() {
+fn a_pendulum_is_a_spring_of_its_weight_over_its_radius() {
     let friction = || Friction::new(0.1, 0.1).expect("friction");
     let model = on(Slider::pendulum(friction(), 2.0));
     assert_eq!(model.slider_stiffness_n_per_m(), 100.0 * 10.0 / 2.0);
@@ -72,7 +72,7 @@ fn exact_a_pendulum_is_a_spring_of_its_weight_over_its_radius() {
 }
 
 #[test]
-fn exact_sliders_that_share_a_linear_system() {
+fn sliders_that_share_a_linear_system() {
     let plain = |mu| Slider::sprung(Friction::new(mu, mu).expect("friction"), 500.0);
     let open = |gap_m| Slider { ends: Ends::Open { gap_m }, ..plain(0.1) };
     let stop = |gap_m| Slider { ends: Stop::elastic([gap_m; 2], 1e4, 0.0).into(), ..plain(0.1) };
@@ -88,7 +88,7 @@ fn exact_sliders_that_share_a_linear_system() {
 }
 
 #[test]
-fn exact_friction_that_no_surface_has_is_refused() {
+fn friction_that_no_surface_has_is_refused() {
     for (fixed, kinetic) in
         [([0.1, -0.1], [0.1; 2]), ([0.1, 0.05], [0.08; 2]), ([f64::NAN; 2], [0.0; 2])]
     {

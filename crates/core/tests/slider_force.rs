@@ -20,7 +20,7 @@ const SLIDER: &str = "[block]\nmass = \"2 t\"\n[slider]\nstatic_friction = 0.06\
 
 /// Its own parts: friction, `K₁ s` and `C₁ ṡ`.
 #[test]
-fn exact_slider_force_is_the_sum_of_its_parts() {
+fn slider_force_is_the_sum_of_its_parts() {
     let text =
         format!("{SLIDER}[[storey]]\nmass = \"1 t\"\nperiod = \"0.4 s\"\ndamping_ratio = 0.02\n");
     let (model, response) = history_and_peak(&text);
@@ -36,7 +36,7 @@ fn exact_slider_force_is_the_sum_of_its_parts() {
 
 /// What stands on the block pulls at its slider too: the peak that the run reports is reached.
 #[test]
-fn exact_slider_force_counts_contents() {
+fn slider_force_counts_contents() {
     let contents =
         "[[contents]]\nfloor = 0\nmass = \"1 t\"\nstatic_friction = 0.3\nkinetic_friction = 0.2\n";
     let (model, response) = history_and_peak(&format!("{SLIDER}{contents}"));

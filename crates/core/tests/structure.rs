@@ -179,7 +179,7 @@ fn prop_frames_of_1_5_and_20_storeys_run_both_ways() {
 
 /// What two modes lack of the mass moves with the block: a point on a rigid frame is the block.
 #[test]
-fn exact_mass_without_a_mode_moves_with_the_block() {
+fn mass_without_a_mode_moves_with_the_block() {
     let friction = Friction::new(0.08, 0.06).expect("friction");
     let (model, motion) = frame(5, Slider::sprung(friction, 1e6));
     let whole = by_modes(&model);

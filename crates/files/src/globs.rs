@@ -216,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_patterns() {
+    fn patterns_match_names() {
         for (pattern, name, expected) in [
             ("*.AT2", "RSN15.AT2", true),
             ("*.AT2", "RSN15.AT2.bak", false),
@@ -237,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_files_folders_and_globs() {
+    fn files_folders_and_globs() {
         let base = std::env::temp_dir().join(format!("slipstick-globs-{}", std::process::id()));
         let names =
             ["b.AT2", "a.AT2", "c.txt", ".hidden.AT2", "x[1].AT2", "in/d.AT2", "in/deep/e.AT2"];

@@ -101,7 +101,7 @@ mod tests {
 
     /// The same numbers as text and as Parquet, its units in names or beside them.
     #[test]
-    fn exact_parquet_is_read_as_text_is() {
+    fn parquet_is_read_as_text_is() {
         let folder = std::env::temp_dir().join(format!("slipstick-lab-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
         let (text, table) = (folder.join("a.csv"), folder.join("a.parquet"));

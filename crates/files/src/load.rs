@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_record_with_scale_and_warnings() {
+    fn record_with_scale_and_warnings() {
         let path = write("one.txt", "0.1\n-0.4\n0.1\n");
         let loaded = load_record(&g(path.clone())).unwrap();
         assert_eq!(loaded.description, ["text with one column, 3 values, 0.5 s, g"]);
@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_vertical_component_takes_both_factors() {
+    fn vertical_component_takes_both_factors() {
         let path = write("along.txt", "0\n1\n-1\n0\n");
         let up = write("up.txt", "0\n1\n0\n");
         let vertical = VerticalRequest { path: up, channel: None, factor: 3.0 };
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_columns_of_the_manual_need_no_key() {
+    fn columns_of_the_manual_need_no_key() {
         let text = "time_s,acceleration_m_per_s2,vertical_acceleration_m_per_s2\n0,0,0\n1,2,3\n";
         let path = write("columns.csv", text);
         let loaded = load_record(&RecordRequest { path, ..Default::default() }).unwrap();
@@ -208,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_channel_must_be_told() {
+    fn channel_must_be_told() {
         let path = write("two.csv", "time_s,north_g,east_g,d_mm\n0,0,1,9\n1,2,3,9\n");
         let request = |channel: Option<&str>| RecordRequest {
             path: path.clone(),
@@ -230,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_zero_record_cannot_be_scaled_to_a_peak() {
+    fn zero_record_cannot_be_scaled_to_a_peak() {
         let path = write("zero.txt", "0\n0\n0\n");
         let request = RecordRequest { scale: Some(Scale::Peak(1.0)), ..g(path.clone()) };
         let error = load_record(&request).unwrap_err().to_string();
@@ -239,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_errors_of_the_reader_pass_through() {
+    fn errors_of_the_reader_pass_through() {
         let path = write("bad.txt", "0\nx\n0\n");
         let error = load_record(&g(path.clone())).unwrap_err().to_string();
         let end = "2:1: expected a finite number, found \"x\"";
@@ -247,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_sampling_of_a_record_is_kept() {
+    fn sampling_of_a_record_is_kept() {
         let path = write("times.txt", "0 0\n1 1\n1 0\n3 0\n");
         let record = record::read(
             "t",

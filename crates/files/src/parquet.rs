@@ -376,7 +376,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_columns_come_back_with_their_units() {
+    fn columns_come_back_with_their_units() {
         let folder = std::env::temp_dir().join(format!("slipstick-parquet-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
         let path = folder.join("columns.parquet");
@@ -407,7 +407,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_first_rows_of_several_groups() {
+    fn the_first_rows_of_several_groups() {
         let path =
             std::env::temp_dir().join(format!("slipstick-first-{}.parquet", std::process::id()));
         let x = |from: i32, to: i32| Column::numbers("x", "m", (from..to).map(f64::from).collect());
@@ -427,7 +427,7 @@ mod tests {
 
     /// Missing numbers are empty cells, as other readers show them.
     #[test]
-    fn exact_numbers_may_be_missing() {
+    fn numbers_may_be_missing() {
         let path =
             std::env::temp_dir().join(format!("slipstick-nan-{}.parquet", std::process::id()));
         let numbers: Vec<f64> =

@@ -79,7 +79,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_what_cannot_be_read() {
+    fn what_cannot_be_read() {
         let folder = std::env::temp_dir();
         let message = |path: &Path| read_bytes(path).unwrap_err().to_string();
         let end = "expected a file, found a folder";
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_backslashes_divide() {
+    fn backslashes_divide() {
         let folder = Path::new("models");
         assert_eq!(resolve(folder, "a/b.txt"), Path::new("models/a/b.txt"));
         assert_eq!(resolve(folder, "a\\b.txt"), Path::new("models/a/b.txt"));

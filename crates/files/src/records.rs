@@ -250,7 +250,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_names_are_never_twice_the_same() {
+    fn names_are_never_twice_the_same() {
         let mut names = FileNames::default();
         let mut name = |source: &str, channel| {
             names.name(Path::new(source), channel, "csv").display().to_string()
@@ -261,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_formats_by_name() {
+    fn formats_by_name() {
         for (name, format) in [
             ("a.csv", Some(WrittenFormat::Csv)),
             ("a.AT2", Some(WrittenFormat::At2)),

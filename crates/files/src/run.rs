@@ -237,7 +237,7 @@ mod tests {
 
     /// More and more samples are tried, never more than there are; what cannot be done has no time.
     #[test]
-    fn exact_time_left_tries_the_first_samples() {
+    fn time_left_tries_the_first_samples() {
         let tried = RefCell::new(Vec::new());
         let work = |samples| {
             tried.borrow_mut().push(samples);
@@ -253,7 +253,7 @@ mod tests {
 
     /// A single Parquet file has a time left, as text has.
     #[test]
-    fn exact_reading_time_of_text_and_parquet() {
+    fn reading_time_of_text_and_parquet() {
         let folder = std::env::temp_dir().join(format!("slipstick-time-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
         let (text, table) = (folder.join("a.csv"), folder.join("a.parquet"));

@@ -175,7 +175,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_tables_in_both_forms() {
+    fn tables_in_both_forms() {
         let mut table = Table::default();
         table
             .texts("record", vec!["a, b".to_owned(), "c \"d\"".to_owned()])
@@ -198,7 +198,7 @@ mod tests {
     /// What is read of one form is what is read of the other, texts and units too; cells of CSV are
     /// texts until numbers are asked for.
     #[test]
-    fn exact_tables_are_read_back() {
+    fn tables_are_read_back() {
         let folder = std::env::temp_dir().join(format!("slipstick-tables-{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
         let mut table = Table::default();

@@ -330,7 +330,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_one_file_is_replaced_whole() {
+    fn one_file_is_replaced_whole() {
         let folder = scratch("whole");
         let path = folder.join("a.txt");
         write_whole(&path, b"one").unwrap();
@@ -340,7 +340,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_set_appears_only_when_complete() {
+    fn set_appears_only_when_complete() {
         let folder = scratch("set");
         let out = folder.join("new/out");
         let mut output = OutputFolder::create(&out, &[]).unwrap();
@@ -357,7 +357,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_abandoned_set_leaves_nothing() {
+    fn abandoned_set_leaves_nothing() {
         let folder = scratch("abandoned");
         let mut output = OutputFolder::create(&folder.join("new/out"), &[]).unwrap();
         output.write("a.txt", b"a").unwrap();
@@ -367,7 +367,7 @@ mod tests {
 
     /// Shards of one study start at the same time, in a folder that none of them finds.
     #[test]
-    fn exact_folder_that_another_makes_meanwhile_is_taken() {
+    fn folder_that_another_makes_meanwhile_is_taken() {
         let folder = scratch("meanwhile");
         for round in 0..50 {
             let out = folder.join(format!("{round}/out"));
@@ -389,7 +389,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_folder_that_is_a_file_is_refused() {
+    fn folder_that_is_a_file_is_refused() {
         let folder = scratch("file");
         fs::write(folder.join("out"), b"mine").unwrap();
         for path in [folder.join("out"), folder.join("out/deeper")] {
@@ -405,7 +405,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_inputs_are_not_overwritten() {
+    fn inputs_are_not_overwritten() {
         let folder = scratch("input");
         let input = folder.join("summary.json");
         fs::write(&input, b"mine").unwrap();
@@ -420,7 +420,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_target_that_is_a_folder_is_refused() {
+    fn target_that_is_a_folder_is_refused() {
         let folder = scratch("target");
         fs::create_dir(folder.join("history.csv")).unwrap();
         let mut output = OutputFolder::create(&folder, &[]).unwrap();
@@ -434,7 +434,7 @@ mod tests {
     /// A file system that takes no files, whoever asks.
     #[cfg(target_os = "linux")]
     #[test]
-    fn exact_folder_that_cannot_be_written_is_refused() {
+    fn folder_that_cannot_be_written_is_refused() {
         let error = OutputFolder::create(Path::new("/proc/slipstick/out"), &[]).err().unwrap();
         assert!(matches!(&error, FileError::Write { .. }), "{error}");
         assert!(error.to_string().starts_with("/proc/slipstick: cannot be written: "), "{error}");

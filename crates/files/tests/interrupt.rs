@@ -6,7 +6,7 @@ use std::fs;
 use slipstick_files::{FileError, OutputFolder, remove_temporaries, write_whole};
 
 #[test]
-fn exact_interrupt_leaves_nothing_behind() {
+fn interrupt_leaves_nothing_behind() {
     let folder = std::env::temp_dir().join(format!("slipstick-interrupt-{}", std::process::id()));
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).unwrap();

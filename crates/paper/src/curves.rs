@@ -88,7 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_intervals_and_their_text() {
+    fn intervals_and_their_text() {
         let points = [[0.0, 1.0], [1.0, 3.0], [2.0, 4.0], [3.0, 0.0], [4.0, 5.0]];
         let found = intervals(&points, |y| y > 2.0);
         assert_eq!(found, [[1.0, 2.0], [4.0, 4.0]]);
@@ -97,14 +97,14 @@ mod tests {
     }
 
     #[test]
-    fn exact_crossing_of_a_parabola() {
+    fn crossing_of_a_parabola() {
         let root = crossing([1.0, 2.0], |x: f64| Ok::<_, ()>(x * x - 2.0)).unwrap().unwrap();
         assert!((root - 2.0_f64.sqrt()).abs() < 1e-12);
         assert_eq!(crossing([2.0, 3.0], |x: f64| Ok::<_, ()>(x * x - 2.0)), Ok(None));
     }
 
     #[test]
-    fn exact_spaces_end_where_they_should() {
+    fn spaces_end_where_they_should() {
         assert_eq!(linspace(0.0, 1.0, 3), [0.0, 0.5, 1.0]);
         let ratios = logspace(0.1, 10.0, 3);
         assert_eq!((ratios[0], ratios[2]), (0.1, 10.0));

@@ -298,7 +298,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_subdivided_and_thinned() {
+    fn subdivided_and_thinned() {
         let motion =
             GroundMotion::evenly_spaced(0.01, vec![0.0, 1.0, 3.0, 2.0, 0.0], None).unwrap();
         let fine = resampled(&motion, 0.005).unwrap();

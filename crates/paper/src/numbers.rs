@@ -278,7 +278,7 @@ mod tests {
 
     /// By hand: |H|² = (1 + (2ξr)²)/((1 − r²)² + (2ξr)²).
     #[test]
-    fn exact_amplification() {
+    fn amplification_is_that_of_a_damped_oscillator() {
         assert!((amplification(1.0 / 1.125, 0.01) - 4.7485).abs() < 5e-5);
         assert!((amplification(2.984 / 2.687, 0.01) - 4.2684).abs() < 5e-5);
         assert_eq!(amplification(0.0, 0.01), 1.0);
@@ -287,7 +287,7 @@ mod tests {
     /// 20 mm of steel, 0.76 m long: I = π d⁴/64 = 7.854e-9 m⁴, 3EI/L³ = 11 272 N/m, 2.519 Hz with
     /// 45 kg.
     #[test]
-    fn exact_cantilever() {
+    fn a_cantilever_has_its_stiffness() {
         let rods = cantilevers();
         let rod = rods.iter().find(|c| (c.diameter_m, c.length_m) == (0.020, 0.76)).unwrap();
         assert_eq!(rod.mass_kg, 45.0);

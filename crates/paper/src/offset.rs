@@ -443,7 +443,7 @@ mod tests {
     /// `(A/ω²) √(1 − (π η/2)²)` with `η = μ_k g/A`, and a small tilt θ moves it by
     /// `−π² (A/ω²) (θ/μ_k) √(1 − (π η/2)²)` every cycle.
     #[test]
-    fn exact_range_and_growth_of_a_block_that_never_stops() {
+    fn range_and_growth_of_a_block_that_never_stops() {
         let library = free_block();
         let test = library.experiment("section3-124kg-free-sine").unwrap();
         let sine = test.sine().unwrap();
@@ -463,7 +463,7 @@ mod tests {
 
     /// A constant error of the table record is a tilt, but for cos θ and the start.
     #[test]
-    fn exact_constant_error_is_a_tilt() {
+    fn constant_error_is_a_tilt() {
         let library = free_block();
         let test = library.experiment("section3-124kg-free-sine").unwrap();
         let gravity = test.model.gravity_m_per_s2();

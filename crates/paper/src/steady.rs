@@ -198,7 +198,7 @@ mod tests {
 
     /// x → A x + b with eigenvalues 0.9, −0.8, 0.5 has the limit (I − A)⁻¹ b = (10, 1, 2).
     #[test]
-    fn exact_limit_of_an_affine_map() {
+    fn limit_of_an_affine_map() {
         let mut states = vec![[0.0; 3]];
         for _ in 0..4 {
             let [x, y, z] = states[states.len() - 1];

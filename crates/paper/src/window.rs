@@ -474,7 +474,7 @@ mod tests {
 
     /// A block that cannot slide ends in the closed form of a damped oscillator.
     #[test]
-    fn exact_held_block() {
+    fn held_block() {
         let held = fixed(&mock_up(45.0, 1.625)).unwrap();
         for table_hz in [0.7, 1.5, 1.9, 4.0] {
             let found = steady(&held, &sine(table_hz, 1.0)).unwrap();

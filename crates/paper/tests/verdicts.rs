@@ -39,7 +39,7 @@ fn paper_no_verdict_changes() {
 }
 
 #[test]
-fn exact_two_runs_give_the_same_bytes() {
+fn two_runs_give_the_same_bytes() {
     let [one, other] = papers();
     assert_eq!(claims_json(one), claims_json(other));
     assert_eq!(listing(one), listing(other));
@@ -47,7 +47,7 @@ fn exact_two_runs_give_the_same_bytes() {
 }
 
 #[test]
-fn exact_every_claim_stands_in_the_chapter_once() {
+fn every_claim_stands_in_the_chapter_once() {
     let paper = &papers()[0];
     let on_one_line = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
     let text = on_one_line(&chapter(paper).markdown);
@@ -62,7 +62,7 @@ fn exact_every_claim_stands_in_the_chapter_once() {
 
 /// What a verdict owes its reader: the difference and its cause, or the missing datum.
 #[test]
-fn exact_every_verdict_has_its_reason() {
+fn every_verdict_has_its_reason() {
     for claim in &papers()[0].claims {
         assert!(claim.why.len() > 30, "{}: {}", claim.id, claim.why);
         assert!(!claim.why.contains("NaN") && !claim.why.contains("inf "), "{}", claim.why);
@@ -72,7 +72,7 @@ fn exact_every_verdict_has_its_reason() {
 }
 
 #[test]
-fn exact_the_first_table_counts_the_verdicts() {
+fn the_first_table_counts_the_verdicts() {
     let paper = &papers()[0];
     let all = [Verdict::Agrees, Verdict::Differs, Verdict::CannotBeChecked];
     let [agrees, differs, unchecked] = all.map(|verdict| paper.count(verdict));
@@ -82,7 +82,7 @@ fn exact_the_first_table_counts_the_verdicts() {
 }
 
 #[test]
-fn exact_every_figure_that_is_shown_is_drawn() {
+fn every_figure_that_is_shown_is_drawn() {
     let chapter = chapter(&papers()[0]);
     for (name, svg) in &chapter.figures {
         assert!(chapter.markdown.contains(&format!("](figures/{name})")), "{name}");
@@ -93,7 +93,7 @@ fn exact_every_figure_that_is_shown_is_drawn() {
 
 /// Every certificate of the exact responses holds.
 #[test]
-fn exact_every_test_is_certified() {
+fn every_test_is_certified() {
     for test in &papers()[0].tests {
         assert!(test.certified, "{}: {}", test.id, test.certificate);
     }

@@ -94,7 +94,7 @@ class Fixed:
         return [[2.0, 0.0, 0.0], [-0.5, 0.0, 0.0]][mode - 1]
 
 
-def test_exact_shapes_of_unit_modal_mass():
+def test_shapes_of_unit_modal_mass():
     ops = Fixed()
     asked = {"mass_unit": "100 kg", "nodes": {"Top": 7}, "damping_ratio": 0.02}
     model = ss.Model.from_opensees(ops, BASE, modes=2, **asked)

@@ -238,7 +238,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_units_of_the_three_systems() {
+    fn units_of_the_three_systems() {
         let kip = DisplayUnits::Us.unit(Quantity::Force, 0.0);
         assert_eq!(kip.symbol, "kip");
         assert!((kip.in_si - 4_448.221_615_260_5).abs() < 1e-9);
@@ -250,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_sentences_take_the_units_of_the_display() {
+    fn sentences_take_the_units_of_the_display() {
         let text = "past its gap of 150 mm: peak 165.1 mm, 1.101 of the gap; -0.98 m/s², at 3 s";
         assert_eq!(
             DisplayUnits::Us.sentence(text),
@@ -261,14 +261,14 @@ mod tests {
     }
 
     #[test]
-    fn exact_si_may_show_accelerations_in_g() {
+    fn si_may_show_accelerations_in_g() {
         let g = DisplayUnits::SiG.unit(Quantity::Acceleration, 3.0);
         assert_eq!((g.of(9.80665), g.symbol), (1.0, "g"));
         assert_eq!(DisplayUnits::SiG.unit(Quantity::Length, 0.15).symbol, "mm");
     }
 
     #[test]
-    fn exact_si_multiples_follow_the_size() {
+    fn si_multiples_follow_the_size() {
         let symbol = |quantity, size| DisplayUnits::Si.unit(quantity, size).symbol;
         assert_eq!(symbol(Quantity::Length, 0.15), "mm");
         assert_eq!(symbol(Quantity::Length, -1.5), "m");

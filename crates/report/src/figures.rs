@@ -144,7 +144,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_sliding_intervals_join_over_reversals() {
+    fn sliding_intervals_join_over_reversals() {
         let slip = Mode::Slip(Direction::Positive);
         let back = Mode::Slip(Direction::Negative);
         let history = History {
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_storeys_shown() {
+    fn storeys_shown() {
         assert_eq!(shown_storeys(&[]), Vec::<usize>::new());
         assert_eq!(shown_storeys(&[1.0, 2.0, 3.0]), [0, 1, 2]);
         assert_eq!(shown_storeys(&[1.0, 5.0, 2.0, 3.0, 4.0]), [0, 1, 4]);

@@ -128,7 +128,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_every_double_comes_back() {
+    fn every_double_comes_back() {
         for value in [0.1, 1.0, -2.5e-300, 5e-324, f64::MAX, 1.0 / 3.0, 1e21] {
             let text = Json::Number(value).to_pretty();
             let back: f64 = serde_json::from_str(&text).expect(&text);
@@ -140,14 +140,14 @@ mod tests {
     }
 
     #[test]
-    fn exact_any_string_comes_back() {
+    fn any_string_comes_back() {
         let text = "a \"quoted\" \\ name\n\t\u{1}\u{7f} μ </script>";
         let written = Json::from(text).to_pretty();
         assert_eq!(serde_json::from_str::<String>(&written).expect(&written), text);
     }
 
     #[test]
-    fn exact_layout_is_two_spaces_and_keeps_the_order() {
+    fn layout_is_two_spaces_and_keeps_the_order() {
         let value = Json::Object(vec![
             ("b", Json::List(vec![Json::from(1.5), Json::Null])),
             ("a", Json::Object(vec![])),

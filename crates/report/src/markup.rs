@@ -103,7 +103,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_text_and_attributes_are_escaped() {
+    fn text_and_attributes_are_escaped() {
         let mut m = Markup::new();
         m.raw("<p").attribute("title", "\" onload='x'").raw(">").text("<script>&\u{1}");
         assert_eq!(
@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_css_strings_hold_no_quote_and_no_angle_bracket() {
+    fn css_strings_hold_no_quote_and_no_angle_bracket() {
         let mut m = Markup::new();
         m.css_string("a\"; } </style>\n", 40);
         assert_eq!(m.as_str(), "\"a\\22 \\3b  \\7d  \\3c \\2f style\\3e  \"");

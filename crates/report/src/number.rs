@@ -140,7 +140,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_significant_digits_round_and_keep_their_zeros() {
+    fn significant_digits_round_and_keep_their_zeros() {
         for (value, expected) in [
             (0.0, "0"),
             (-0.0, "0"),
@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_coordinates_lose_their_trailing_zeros() {
+    fn coordinates_lose_their_trailing_zeros() {
         assert_eq!(trimmed(12.50, 2), "12.5");
         assert_eq!(trimmed(100.0, 2), "100");
         assert_eq!(trimmed(-0.001, 2), "0");
@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_given_numbers_come_back_as_given() {
+    fn given_numbers_come_back_as_given() {
         for (value, expected) in [
             (0.02, "0.02"),
             (325.0, "325"),
@@ -182,14 +182,14 @@ mod tests {
     }
 
     #[test]
-    fn exact_print_has_true_minus_and_superscripts() {
+    fn print_has_true_minus_and_superscripts() {
         assert_eq!(printed(-0.25, 2), "−0.25");
         assert_eq!(printed(3.0e-14, 2), "3.0\u{202f}×\u{202f}10⁻¹⁴");
         assert_eq!(typeset("gate"), "gate");
     }
 
     #[test]
-    fn exact_counts_are_grouped() {
+    fn counts_are_grouped() {
         assert_eq!(count(2800), "2800");
         assert_eq!(count(1_234_567), "1\u{202f}234\u{202f}567");
     }

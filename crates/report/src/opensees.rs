@@ -477,7 +477,7 @@ mod tests {
 
     /// Dashpots between all masses add up to `C`: a mode of the frame on a still block is damped by 2ξω.
     #[test]
-    fn exact_dashpots_damp_every_mode_by_its_ratio() {
+    fn dashpots_damp_every_mode_by_its_ratio() {
         let model = input::parse("tower", TOWER, &[]).expect("a model").model;
         let (frame, dashpots) = (model.frame(), dashpots(model.frame()));
         let modes = shear_frame_modes(&frame.masses_kg, &frame.stiffnesses_n_per_m);
@@ -493,7 +493,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_script_has_the_numbers_of_the_model() {
+    fn script_has_the_numbers_of_the_model() {
         let model = input::parse("tower", TOWER, &[]).expect("a model").model;
         let text = script("A \"tower\"", &model, &motion(), 1e7).expect("a script");
         assert!(text.starts_with("\"\"\"A tower: "), "{text}");
@@ -523,7 +523,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_scripts_of_devices_have_their_numbers() {
+    fn scripts_of_devices_have_their_numbers() {
         let stop = "[slider.stop]\ngap = { positive = \"40 mm\", negative = \"30 mm\" }\n";
         let exponential = "static_friction = 0.03\nkinetic_friction = { slow = 0.03, fast = 0.055, \
                            rate = \"30 s/m\" }\n";
@@ -638,7 +638,7 @@ mod tests {
 
     /// A mass in free flight after half a period of spring and damper has the restitution.
     #[test]
-    fn exact_the_damper_of_a_rigid_stop_gives_its_restitution() {
+    fn the_damper_of_a_rigid_stop_gives_its_restitution() {
         for e in [0.05, 0.5, 0.99] {
             let ratio = rebound_damping(e);
             let rebound = (-core::f64::consts::PI * ratio / (1.0 - ratio * ratio).sqrt()).exp();
@@ -647,7 +647,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_what_cannot_be_expressed_is_refused() {
+    fn what_cannot_be_expressed_is_refused() {
         let flat = "[[slider.surface]]\nfriction = 0.05\n[[slider.surface]]\nradius = \"1 m\"\nfriction = 0.03\n";
         let curved = "[[slider.surface]]\nradius = \"1 m\"\nfriction = 0.03\n";
         let rate = "kinetic_friction = { slow = 0.03, fast = 0.055, rate = \"30 s/m\" }\n";

@@ -153,7 +153,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_the_largest_in_size_governs() {
+    fn the_largest_in_size_governs() {
         assert_eq!(governing(&[1.0, -3.0, 2.0]), Some(1));
         assert_eq!(governing(&[2.0]), None);
         assert_eq!(governing(&[2.0, 2.0, 2.0]), None);

@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_table_of_a_study() {
+    fn table_of_a_study() {
         let rows = vec![
             row(0, "residual_sliding_displacement_m"),
             LevelSummary { max_run: None, mean: f64::NAN, ..row(0, "gap_ratio") },

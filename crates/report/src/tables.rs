@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_history_has_its_rows_and_columns() {
+    fn history_has_its_rows_and_columns() {
         let history = History {
             storeys: 1,
             interfaces: 1,
@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_events_have_direction_and_kind() {
+    fn events_have_direction_and_kind() {
         let event = |kind, mode| Event {
             time_s: 0.5,
             kind,

@@ -106,7 +106,7 @@ mod tests {
     use super::is_allowed;
 
     #[test]
-    fn exact_expressions_of_the_spdx_specification() {
+    fn expressions_of_the_spdx_specification() {
         for allowed in [
             "MIT",
             "MIT/Apache-2.0",

@@ -77,7 +77,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_last_line_is_counted() {
+    fn last_line_is_counted() {
         let tally = counted("....\n36 passed, 1 skipped, 2 warnings in 20.1s\n");
         assert_eq!(tally, Tally { passed: 36, failed: 0, skipped: 1 });
         let tally = counted("=== 2 failed, 3 passed in 1.0s ===");

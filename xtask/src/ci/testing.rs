@@ -107,7 +107,7 @@ mod tests {
 
     const OUTPUT: &str = "\
 running 4 tests
-test motion::exact_peak ... ok
+test motion::peak ... ok
 test motion::records ... ok
 test motion::slow ... ignored
 test motion::live ... 
@@ -117,14 +117,14 @@ test motion::wrong ... FAILED
 
 successes:
 
----- motion::exact_peak stdout ----
+---- motion::peak stdout ----
 skippedless chatter
 ---- motion::records stdout ----
 skipped: far-field records (no folder of records)
 skipped: near-fault records (no folder of records)
 
 successes:
-    motion::exact_peak
+    motion::peak
     motion::records
 
 failures:
@@ -141,7 +141,7 @@ test result: ok. 5 passed; 0 failed; 0 ignored; 0 measured; 0 filtered out; fini
 ";
 
     #[test]
-    fn exact_a_test_that_skips_is_counted_once_and_not_as_passed() {
+    fn a_test_that_skips_is_counted_once_and_not_as_passed() {
         let mut log = Log::default();
         for line in OUTPUT.lines() {
             log.read(line);
@@ -150,7 +150,7 @@ test result: ok. 5 passed; 0 failed; 0 ignored; 0 measured; 0 filtered out; fini
     }
 
     #[test]
-    fn exact_failures_are_shown_and_successes_are_not() {
+    fn failures_are_shown_and_successes_are_not() {
         let mut log = Log::default();
         let shown: Vec<&str> = OUTPUT.lines().filter(|line| log.read(line)).collect();
         assert!(shown.contains(&"left: 1") && shown.contains(&"test motion::wrong ... FAILED"));

@@ -195,7 +195,7 @@ mod tests {
 
     /// Not to be seen from outside: an exact response that fails its check is a fault of ours.
     #[test]
-    fn exact_failed_check_is_status_1() {
+    fn failed_check_is_status_1() {
         let text = "[block]\nmass = \"1 kg\"\n[slider]\nstatic_friction = 0.2\n\
                     kinetic_friction = 0.1\nbounds = { lower = 0.5, upper = 2 }\n[motion]\n\
                     sine = { frequency = \"1 Hz\", amplitude = \"3 m/s2\", duration = \"2 s\", \

@@ -9,7 +9,7 @@ fn number(value: &Value, path: &str) -> f64 {
 }
 
 #[test]
-fn exact_standard_input_is_a_model() {
+fn standard_input_is_a_model() {
     let folder = Folder::with_model("stdin", RECORDED);
     folder.write("record.csv", RECORD);
     let from_stdin = |arguments: &[&str]| {
@@ -25,7 +25,7 @@ fn exact_standard_input_is_a_model() {
 }
 
 #[test]
-fn exact_line_ends_and_byte_order_marks_change_nothing() {
+fn line_ends_and_byte_order_marks_change_nothing() {
     let folder = Folder::new("crlf");
     for sub in ["lf", "crlf"] {
         let dress = |text: &str| match sub {
@@ -51,7 +51,7 @@ fn exact_line_ends_and_byte_order_marks_change_nothing() {
 }
 
 #[test]
-fn exact_records_lie_beside_the_model_and_motions_in_the_working_folder() {
+fn records_lie_beside_the_model_and_motions_in_the_working_folder() {
     let folder = Folder::new("relative");
     folder.write("deep/model.toml", RECORDED);
     folder.write("deep/record.csv", RECORD);
@@ -64,7 +64,7 @@ fn exact_records_lie_beside_the_model_and_motions_in_the_working_folder() {
 }
 
 #[test]
-fn exact_motion_options_complete_a_record() {
+fn motion_options_complete_a_record() {
     let folder = Folder::with_model("motion", BLOCK);
     folder.write("one.txt", "0\n0.1\n-0.4\n0\n");
     let motion = ["model.toml", "--motion", "one.txt", "--units", "g", "--dt", "20 ms"];
@@ -89,7 +89,7 @@ fn exact_motion_options_complete_a_record() {
 }
 
 #[test]
-fn exact_set_and_method_change_the_model() {
+fn set_and_method_change_the_model() {
     let folder = Folder::with_model("set", BLOCK);
     let frictions = "static_friction = 0.165\nkinetic_friction = 0.153";
     let written = BLOCK.replace(frictions, "static_friction = 0.2\nkinetic_friction = 0.1");

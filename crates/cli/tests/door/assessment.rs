@@ -74,7 +74,7 @@ fn run(folder: &Folder, record: &str, scale: f64, set: &[&str]) -> Value {
 }
 
 #[test]
-fn exact_spectrum_of_one_record_is_that_of_its_runs() {
+fn spectrum_of_one_record_is_that_of_its_runs() {
     let folder = suite("spectrum-one", 1);
     let over = "storey.1.period=0.2, 0.5, 1.1 s";
     folder.stdout(&[
@@ -130,7 +130,7 @@ fn exact_spectrum_of_one_record_is_that_of_its_runs() {
 }
 
 #[test]
-fn exact_isolator_period_sets_the_radius() {
+fn isolator_period_sets_the_radius() {
     let folder = suite("isolator", 1);
     let out = |over: &str| {
         json(
@@ -156,7 +156,7 @@ fn exact_isolator_period_sets_the_radius() {
 }
 
 #[test]
-fn exact_frequency_response_has_its_window() {
+fn frequency_response_has_its_window() {
     let folder = Folder::with_model(
         "frequency",
         &format!(
@@ -180,7 +180,7 @@ fn exact_frequency_response_has_its_window() {
 }
 
 #[test]
-fn exact_ida_at_levels_is_that_of_its_runs() {
+fn ida_at_levels_is_that_of_its_runs() {
     let folder = suite("ida", 4);
     folder.stdout(&[
         "ida",
@@ -215,7 +215,7 @@ fn exact_ida_at_levels_is_that_of_its_runs() {
 }
 
 #[test]
-fn exact_hunt_brackets_the_gap_to_one_percent() {
+fn hunt_brackets_the_gap_to_one_percent() {
     let folder = suite("hunt", 3);
     folder.stdout(&["ida", "model.toml", "--records", "records", "--out", "out", "-q"]);
     let csv = folder.read("out/capacities.csv");
@@ -297,7 +297,7 @@ fn exact_hunt_brackets_the_gap_to_one_percent() {
 
 /// statsmodels 0.15: `data/reference/fragility.json`, the case "few".
 #[test]
-fn exact_design_front_is_that_of_all_designs() {
+fn design_front_is_that_of_all_designs() {
     let folder = bounded("design", 1);
     let (friction, radius) = ("0.02..0.10:9", "slider.radius=0.5..4m:8");
     let scale = ["--scale-to", "2 m/s2"];
@@ -360,7 +360,7 @@ fn exact_design_front_is_that_of_all_designs() {
 }
 
 #[test]
-fn exact_design_that_cannot_be_is_status_1_with_the_nearest() {
+fn design_that_cannot_be_is_status_1_with_the_nearest() {
     let folder = suite("infeasible", 2);
     let output = folder.output(&[
         "design",
@@ -385,7 +385,7 @@ fn exact_design_that_cannot_be_is_status_1_with_the_nearest() {
 }
 
 #[test]
-fn exact_results_are_the_same_on_any_number_of_threads() {
+fn results_are_the_same_on_any_number_of_threads() {
     let folder = suite("threads", 3);
     let commands: [&[&str]; 3] = [
         &["spectrum", "model.toml", "--records", "records", "--over", "storey.1.period=0.2..1s:5"],
@@ -419,7 +419,7 @@ fn exact_results_are_the_same_on_any_number_of_threads() {
 }
 
 #[test]
-fn exact_what_is_wrong_is_said() {
+fn what_is_wrong_is_said() {
     let folder = suite("refused", 2);
     folder.write("none.csv", "level [m/s2],runs,exceeded\n0.1,4,0\n0.2,4,0\n");
     folder.write("cell.csv", "level [m/s2],runs,exceeded\n0.1,4,0\n0.2,x,0\n");
@@ -530,7 +530,7 @@ fn exact_what_is_wrong_is_said() {
 }
 
 #[test]
-fn exact_help_of_the_suite_teaches_in_a_hundred_columns() {
+fn help_of_the_suite_teaches_in_a_hundred_columns() {
     let folder = Folder::new("suite-help");
     for command in ["spectrum", "ida", "fragility", "design"] {
         let help = folder.stdout(&[command, "--help"]);
@@ -544,7 +544,7 @@ fn exact_help_of_the_suite_teaches_in_a_hundred_columns() {
 
 /// A model with bounds is run with each of them; what is varied is averaged over, taken apart or kept.
 #[test]
-fn exact_ida_of_designs_and_bounds() {
+fn ida_of_designs_and_bounds() {
     let folder = bounded("ida-designs", 4);
     let ida = [
         "ida",
@@ -605,7 +605,7 @@ fn exact_ida_of_designs_and_bounds() {
 
 /// A design whose runs have no answer says how many, and the status is that of a failure.
 #[test]
-fn exact_design_counts_the_runs_that_fail() {
+fn design_counts_the_runs_that_fail() {
     let folder = suite("design-failed", 4);
     // Kinetic friction above the static of 0.06 makes no model: one design of five.
     let arguments = [
@@ -636,7 +636,7 @@ fn exact_design_counts_the_runs_that_fail() {
 
 /// Curves of pairs at once, under a spectrum and a design too: the runs of the suite of the same pairs.
 #[test]
-fn exact_pairs_at_once_in_every_analysis() {
+fn pairs_at_once_in_every_analysis() {
     let folder = suite("pairs-at-once", 4);
     let pairs = [
         "--records",
@@ -678,7 +678,7 @@ fn exact_pairs_at_once_in_every_analysis() {
 
 /// Two components of one station are one observation: standard errors are clustered by pair.
 #[test]
-fn exact_ida_clusters_pairs() {
+fn ida_clusters_pairs() {
     let folder = suite("ida-pairs", 8);
     let levels = ["--scale-to", "1..6 m/s2:21", "--limit", "40 mm", "-q"];
     let files: Vec<String> = (0..8).map(|i| format!("records/r{i}.csv")).collect();
@@ -726,7 +726,7 @@ fn exact_ida_clusters_pairs() {
 /// One run that fails is one row with its error, named with its factor; the others are what they are alone,
 /// and the status says that not all is answered.
 #[test]
-fn exact_a_run_that_fails_is_a_row_and_the_status_says_so() {
+fn a_run_that_fails_is_a_row_and_the_status_says_so() {
     let folder = suite("one-fails", 3);
     // Three times this is more than any motion may be.
     folder.write("records/strong.csv", "time_s,acceleration_m_per_s2\n0,0\n0.1,5e29\n0.2,0\n");
@@ -760,7 +760,7 @@ fn exact_a_run_that_fails_is_a_row_and_the_status_says_so() {
 
 /// The level of one record would make it stronger than any motion may be.
 #[test]
-fn exact_ida_with_runs_that_fail_says_so_in_its_status() {
+fn ida_with_runs_that_fail_says_so_in_its_status() {
     let folder = suite("ida-fails", 2);
     let mut ripple = "time_s,acceleration_m_per_s2\n".to_owned();
     for i in 0..200 {
@@ -790,7 +790,7 @@ fn exact_ida_with_runs_that_fail_says_so_in_its_status() {
 
 /// Flat geometry is said wherever runs leave it, with how many and which first.
 #[test]
-fn exact_runs_beyond_flat_geometry_are_counted_in_every_analysis() {
+fn runs_beyond_flat_geometry_are_counted_in_every_analysis() {
     let folder = suite("flat", 3);
     for head in [
         &["ida", "model.toml", "--scale-to", "1, 40 m/s2"][..],
@@ -813,7 +813,7 @@ fn exact_runs_beyond_flat_geometry_are_counted_in_every_analysis() {
 
 /// The limit of the analysis is known beside its tables, as in its folder.
 #[test]
-fn exact_fragility_knows_the_limit_of_the_analysis() {
+fn fragility_knows_the_limit_of_the_analysis() {
     let folder = suite("limit-known", 6);
     let ida = [
         "--records",

@@ -19,7 +19,7 @@ const PRINTING: [&[&str]; 6] = [
 ];
 
 #[test]
-fn exact_closed_pipe_is_silent() {
+fn closed_pipe_is_silent() {
     // A gap that is passed gives a warning, which must not be heard either.
     let model = BLOCK.replace("[slider]", "[slider]\ngap = \"1 mm\"");
     let folder = Folder::with_model("pipe", &model);
@@ -45,7 +45,7 @@ fn exact_closed_pipe_is_silent() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn exact_standard_output_that_is_full() {
+fn standard_output_that_is_full() {
     let folder = Folder::with_model("stdout-full", BLOCK);
     for arguments in PRINTING {
         let full = File::options().write(true).open("/dev/full").unwrap();
@@ -65,7 +65,7 @@ fn exact_standard_output_that_is_full() {
 
 /// A limit on the size of files stops a write in its middle, as a full disk does.
 #[test]
-fn exact_write_that_stops_in_the_middle_leaves_nothing() {
+fn write_that_stops_in_the_middle_leaves_nothing() {
     let folder = Folder::with_model("limit", BLOCK);
     folder.write("old/summary.json", "older");
     for out in ["new/out", "old"] {
@@ -81,7 +81,7 @@ fn exact_write_that_stops_in_the_middle_leaves_nothing() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn exact_full_disk_leaves_nothing() {
+fn full_disk_leaves_nothing() {
     let folder = Folder::with_model("disk", BLOCK);
     folder.write("disk/.keep", "");
     // A file system of its own, seen by this shell only.
@@ -127,7 +127,7 @@ fn interrupted(folder: &Folder, arguments: &[&str], when: impl Fn(&Folder) -> bo
 }
 
 #[test]
-fn exact_interrupt_leaves_nothing_behind() {
+fn interrupt_leaves_nothing_behind() {
     let long = BLOCK.replace("5 s", "4000 s");
     let folder = Folder::with_model("interrupt", &long);
     // The folder is made before the analysis starts.

@@ -11,7 +11,7 @@ fn storeys() -> String {
 }
 
 #[test]
-fn exact_same_command_writes_the_same_bytes() {
+fn same_command_writes_the_same_bytes() {
     let folder = Folder::with_model("same", &storeys());
     let run = || {
         folder.stdout(&["run", "model.toml", "--out", "out", "--floor-spectrum"]);
@@ -25,7 +25,7 @@ fn exact_same_command_writes_the_same_bytes() {
 }
 
 #[test]
-fn exact_output_folder_keeps_what_is_not_ours() {
+fn output_folder_keeps_what_is_not_ours() {
     let folder = Folder::with_model("keeps", BLOCK);
     folder.write("out/notes.txt", "mine");
     folder.write("out/history.csv", "older");
@@ -36,7 +36,7 @@ fn exact_output_folder_keeps_what_is_not_ours() {
 }
 
 #[test]
-fn exact_history_has_the_columns_and_rows_of_the_manual() {
+fn history_has_the_columns_and_rows_of_the_manual() {
     let folder =
         Folder::with_model("history", &format!("{}[analysis]\ntail = \"1 s\"\n", storeys()));
     let json = folder.json(&["model.toml", "--out", "out"]);
@@ -65,7 +65,7 @@ fn exact_history_has_the_columns_and_rows_of_the_manual() {
 }
 
 #[test]
-fn exact_repeated_times_give_two_rows() {
+fn repeated_times_give_two_rows() {
     let folder = Folder::with_model("jump", RECORDED);
     folder.write("record.csv", "time_s,acceleration_m_per_s2\n0,1\n1,1\n1,-4\n2,-4\n2,0\n3,0\n");
     let json = folder.json(&["model.toml", "--out", "out"]);
@@ -77,7 +77,7 @@ fn exact_repeated_times_give_two_rows() {
 }
 
 #[test]
-fn exact_step_is_that_of_the_record_whatever_the_tail() {
+fn step_is_that_of_the_record_whatever_the_tail() {
     // The last sample is not 0, so that the tail starts with a jump, and ends between two steps.
     let record = "time_s,acceleration_m_per_s2\n0,0\n1,5\n2,-5\n3,1\n";
     let folder = Folder::with_model("tail", &format!("{RECORDED}[analysis]\ntail = \"1.5 s\"\n"));
@@ -91,7 +91,7 @@ fn exact_step_is_that_of_the_record_whatever_the_tail() {
 }
 
 #[test]
-fn exact_events_are_those_that_were_counted() {
+fn events_are_those_that_were_counted() {
     let folder = Folder::with_model("events", BLOCK);
     let json = folder.json(&["model.toml", "--out", "out"]);
     let csv = folder.read("out/events.csv");
@@ -112,7 +112,7 @@ fn exact_events_are_those_that_were_counted() {
 }
 
 #[test]
-fn exact_report_names_what_it_came_from() {
+fn report_names_what_it_came_from() {
     let folder = Folder::with_model("report", RECORDED);
     folder.write("record.csv", "time_s,acceleration_m_per_s2\n0,0\n1,5\n2,-5\n3,0\n");
     folder.stdout(&["run", "model.toml", "--out", "out"]);

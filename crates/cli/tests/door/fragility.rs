@@ -33,7 +33,7 @@ fn peer_fragility_of_counts_is_that_of_statsmodels() {
 }
 
 #[test]
-fn exact_fragility_of_a_study_counts_its_rows() {
+fn fragility_of_a_study_counts_its_rows() {
     let folder = suite("fragility-study", 5);
     folder.write(
         "plan.toml",
@@ -114,7 +114,7 @@ fn exact_fragility_of_a_study_counts_its_rows() {
 
 /// Every record at every level is run once for each design, so runs of a record are not independent.
 #[test]
-fn exact_intervals_of_a_study_are_clustered_by_record() {
+fn intervals_of_a_study_are_clustered_by_record() {
     let folder = suite("fragility-clusters", 6);
     folder.write(
         "plan.toml",
@@ -206,7 +206,7 @@ fn exact_intervals_of_a_study_are_clustered_by_record() {
 
 /// A design's folder holds the runs of its front, a spectrum's all of its runs.
 #[test]
-fn exact_folders_of_design_and_spectrum_are_read() {
+fn folders_of_design_and_spectrum_are_read() {
     let folder = suite("fragility-folders", 8);
     // Records that are alike but for their strength and a part of their own: demands grow with it.
     let values = |number: usize| {
@@ -248,7 +248,7 @@ fn exact_folders_of_design_and_spectrum_are_read() {
 /// A table that does not state the unit of its levels is refused: read as SI, levels in g would be wrong
 /// by a factor of 9.8.
 #[test]
-fn exact_intensities_without_a_unit_are_refused() {
+fn intensities_without_a_unit_are_refused() {
     let folder = Folder::new("fragility-units");
     let rows = "runs,exceeded\n0.2,11,1\n0.4,11,4\n0.8,11,10\n";
     for (name, head) in [
@@ -290,7 +290,7 @@ fn exact_intensities_without_a_unit_are_refused() {
 
 /// What the records of a study were scaled to is what its levels are of, whatever is asked for.
 #[test]
-fn exact_levels_keep_their_measure() {
+fn levels_keep_their_measure() {
     let folder = suite("fragility-measure", 5);
     folder.write(
         "plan.toml",

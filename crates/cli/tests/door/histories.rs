@@ -42,7 +42,7 @@ fn column(table: &str, name: &str) -> Vec<String> {
 }
 
 #[test]
-fn exact_every_run_of_a_suite_is_that_of_a_single_analysis() {
+fn every_run_of_a_suite_is_that_of_a_single_analysis() {
     let folder = folder("histories-single", 3);
     let scaled = ["--records", "records/*.csv", "--scale-to", "0.35 g", "--out", "out"];
     let text = folder.stdout(&[&["run", "model.toml"], &scaled[..]].concat());
@@ -71,7 +71,7 @@ fn exact_every_run_of_a_suite_is_that_of_a_single_analysis() {
 }
 
 #[test]
-fn exact_mean_governs_from_seven_records_on() {
+fn mean_governs_from_seven_records_on() {
     let folder = folder("histories-mean", 7);
     folder.stdout(&["run", "plain.toml", "--records", "records", "--out", "out"]);
     let runs = column(&folder.read("out/runs.csv"), "peak_sliding_displacement_m");
@@ -83,7 +83,7 @@ fn exact_mean_governs_from_seven_records_on() {
 }
 
 #[test]
-fn exact_models_side_by_side_in_one_report() {
+fn models_side_by_side_in_one_report() {
     let folder = folder("histories-models", 2);
     let text = folder.stdout(&[
         "run",
@@ -111,7 +111,7 @@ fn exact_models_side_by_side_in_one_report() {
 /// Seven pairs under RotD100 and under the shape of a code: the same factors and demands as a study of
 /// the same pairs, and the mean of the larger of both components governs.
 #[test]
-fn exact_pairs_take_one_factor_as_in_a_study() {
+fn pairs_take_one_factor_as_in_a_study() {
     let folder = folder("histories-pairs", 14);
     let (mut files, mut second) = (Vec::new(), Vec::new());
     for i in 0..7 {
@@ -180,7 +180,7 @@ fn exact_pairs_take_one_factor_as_in_a_study() {
 /// Pairs at once are the runs of models with both records, bit for bit; what components say alone are runs of
 /// one record; a second component of zeros leaves the run of the first.
 #[test]
-fn exact_pairs_at_once_are_models_with_two_records() {
+fn pairs_at_once_are_models_with_two_records() {
     let folder = folder("histories-at-once", 4);
     let zeros = |text: String| {
         let mut lines = text.lines().map(str::to_owned).collect::<Vec<_>>();
@@ -237,7 +237,7 @@ fn exact_pairs_at_once_are_models_with_two_records() {
 
 /// What two directions refuse names its key, and the option that runs the components by themselves.
 #[test]
-fn exact_pairs_of_a_model_in_one_direction() {
+fn pairs_of_a_model_in_one_direction() {
     let folder = folder("histories-one-direction", 2);
     let model = folder.read("plain.toml").replace("[slider]\n", "[slider]\ntilt = \"1 mrad\"\n");
     folder.write("tilted.toml", &model);
@@ -260,7 +260,7 @@ fn strs(all: &[String]) -> Vec<&str> {
 }
 
 #[test]
-fn exact_what_a_suite_cannot_be_asked() {
+fn what_a_suite_cannot_be_asked() {
     let folder = folder("histories-refused", 1);
     for (options, expected) in [
         (["--floor-spectrum"].as_slice(), "expected one model and one record"),
@@ -284,7 +284,7 @@ fn exact_what_a_suite_cannot_be_asked() {
 
 /// Of several models each column is of one bound of friction, and the statistic below is that of the column.
 #[test]
-fn exact_mean_is_that_of_the_printed_column() {
+fn mean_is_that_of_the_printed_column() {
     let folder = folder("histories-columns", 7);
     // With a gap so large that it plays no part the bounds differ in what they make of single records.
     let text =
@@ -311,7 +311,7 @@ fn exact_mean_is_that_of_the_printed_column() {
 
 /// What the slider strikes and what the storeys are called is told of a suite as of a single run.
 #[test]
-fn exact_stops_contents_and_names_of_a_suite() {
+fn stops_contents_and_names_of_a_suite() {
     let folder = folder("histories-met", 3);
     let model = MODEL
         .replace("gap = \"20 mm\"\n", "stop = { gap = \"10 mm\", stiffness = \"400 kN/m\" }\n")
@@ -337,7 +337,7 @@ fn exact_stops_contents_and_names_of_a_suite() {
 
 /// A pendulum that slides far on its dish is not the flat one that is computed.
 #[test]
-fn exact_flat_geometry_is_said_of_runs_suites_and_studies() {
+fn flat_geometry_is_said_of_runs_suites_and_studies() {
     let folder = folder("histories-flat", 2);
     let said = "of its radius: beyond 0.2 flat geometry is in error";
     let one = ["run", "plain.toml", "--motion", "records/r1.csv", "--scale", "8"];
@@ -358,7 +358,7 @@ fn exact_flat_geometry_is_said_of_runs_suites_and_studies() {
 
 /// Every sentence of a report says which run it is of, or is of all of them.
 #[test]
-fn exact_sentences_of_a_report_are_of_the_bound_that_governs() {
+fn sentences_of_a_report_are_of_the_bound_that_governs() {
     let model = MODEL
         .replace("mass = \"300 kg\"", "mass = \"300 kg\"\nwidth = \"0.3 m\"")
         .replace("mass = \"200 kg\"", "mass = \"200 kg\"\nheight = \"1 m\"")
@@ -393,7 +393,7 @@ fn exact_sentences_of_a_report_are_of_the_bound_that_governs() {
 
 /// The force through surfaces in series has their slopes in it: over the weight it is no friction.
 #[test]
-fn exact_force_of_surfaces_is_friction_and_restoring_force() {
+fn force_of_surfaces_is_friction_and_restoring_force() {
     let folder = Folder::with_model(
         "histories-series",
         "[block]\nmass = \"1 t\"\n[slider]\n[[slider.surface]]\nfriction = 0.03\nradius = \"0.5 m\"\n\
@@ -408,7 +408,7 @@ fn exact_force_of_surfaces_is_friction_and_restoring_force() {
 /// A report that a reviewer can follow: earthquakes, factors and peaks first, what governs marked, and the hand's
 /// calculation beside the runs.
 #[test]
-fn exact_report_of_a_suite_says_what_it_is_of() {
+fn report_of_a_suite_says_what_it_is_of() {
     let folder = folder("histories-of", 1);
     let at2 = |component: &str, phase: f64| {
         let values = (0..1500).map(|k| {
@@ -485,7 +485,7 @@ fn exact_report_of_a_suite_says_what_it_is_of() {
 
 /// A factor that makes another motion of a record is said with the record.
 #[test]
-fn exact_far_factors_are_said() {
+fn far_factors_are_said() {
     let folder = folder("histories-far", 3);
     let warned = |scale: &str| {
         let text = folder.stdout(&["run", "model.toml", "--records", "records", "--scale", scale]);
@@ -500,7 +500,7 @@ fn exact_far_factors_are_said() {
 /// What reading two files said stands in the answer with each of them, weighed; the sentence above names the
 /// first.
 #[test]
-fn exact_notices_of_every_record_of_a_suite_are_kept() {
+fn notices_of_every_record_of_a_suite_are_kept() {
     let folder = folder("histories-noticed", 3);
     for i in 0..2 {
         // A first sample that is not 0, and a velocity left at the end.
@@ -529,7 +529,7 @@ fn exact_notices_of_every_record_of_a_suite_are_kept() {
 
 /// A single run says which model and which record it is of, the gravest notice first.
 #[test]
-fn exact_a_run_says_what_it_is_of() {
+fn a_run_says_what_it_is_of() {
     let folder = folder("histories-one", 1);
     let run = |more: &[&str]| {
         folder.json(&[&["model.toml", "--motion", "records/r0.csv", "--scale", "3"], more].concat())
@@ -551,7 +551,7 @@ fn exact_a_run_says_what_it_is_of() {
 /// What a reviewer asks of a report for a code: the intensity by its name, factors on the properties, demand beside
 /// capacity with the number of runs beyond, the total displacement of an eccentricity.
 #[test]
-fn exact_report_for_a_code_names_intensity_factors_and_capacity() {
+fn report_for_a_code_names_intensity_factors_and_capacity() {
     let folder = folder("histories-code", 3);
     let stop = "stop = { gap = \"20 mm\", stiffness = \"4 MN/m\" }\n";
     let stopped = MODEL

@@ -99,7 +99,7 @@ fn check_run(value: &Value, storeys: usize) {
 }
 
 #[test]
-fn exact_keys_of_a_block() {
+fn keys_of_a_block() {
     let folder = Folder::with_model("json-block", BLOCK);
     let json = folder.json(&["model.toml"]);
     check_run(&json, 0);
@@ -113,7 +113,7 @@ fn exact_keys_of_a_block() {
 }
 
 #[test]
-fn exact_keys_with_bounds_heights_and_iterations() {
+fn keys_with_bounds_heights_and_iterations() {
     let storeys = "\n[[storey]]\nmass = \"40 kg\"\nstiffness = \"50 kN/m\"\ndamping_ratio = 0.02\n\
                    height = \"0.8 m\"\n";
     let text = BLOCK
@@ -154,7 +154,7 @@ fn exact_keys_with_bounds_heights_and_iterations() {
 }
 
 #[test]
-fn exact_floor_spectra_stand_beside() {
+fn floor_spectra_stand_beside() {
     let folder = Folder::with_model("json-spectra", BLOCK);
     assert!(folder.json(&["model.toml"]).get("floor_spectrum").is_none());
     let json = folder.json(&["model.toml", "--floor-spectrum"]);
@@ -171,7 +171,7 @@ fn exact_floor_spectra_stand_beside() {
 }
 
 #[test]
-fn exact_keys_where_nothing_happens() {
+fn keys_where_nothing_happens() {
     let still = BLOCK.replace("3 m/s2", "0 m/s2");
     let json = Folder::with_model("json-still", &still).json(&["model.toml"]);
     check_run(&json, 0);
@@ -180,7 +180,7 @@ fn exact_keys_where_nothing_happens() {
 }
 
 #[test]
-fn exact_contact_loss_is_a_list_of_intervals() {
+fn contact_loss_is_a_list_of_intervals() {
     let text = super::support::RECORDED;
     let folder = Folder::with_model("json-contact", text);
     let header = "time_s,acceleration_m_per_s2,vertical_acceleration_m_per_s2\n";

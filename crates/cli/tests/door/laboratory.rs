@@ -17,7 +17,7 @@ fn stderr(output: &std::process::Output) -> String {
 }
 
 #[test]
-fn exact_a_run_compared_with_itself_agrees() {
+fn a_run_compared_with_itself_agrees() {
     let folder = tested("compare-self");
     let bound = "peak_ratio.sliding_displacement=0.999999..1.000001";
     let text = folder.stdout(&["compare", "test.csv", "model.toml", "--json", "--within", bound]);
@@ -36,7 +36,7 @@ fn exact_a_run_compared_with_itself_agrees() {
 }
 
 #[test]
-fn exact_a_missed_bound_is_named_and_status_1() {
+fn a_missed_bound_is_named_and_status_1() {
     let folder = tested("compare-missed");
     let output = folder.output(&[
         "compare",
@@ -65,7 +65,7 @@ fn exact_a_missed_bound_is_named_and_status_1() {
 }
 
 #[test]
-fn exact_bad_input_is_status_2_with_its_place() {
+fn bad_input_is_status_2_with_its_place() {
     let folder = tested("compare-refused");
     folder.write("map.toml", "block_acceleraton = \"A1 [g]\"\n");
     folder.write("gap.csv", "time_s,table_acceleration_m_per_s2\n0,1\n1,\n2,3\n");
@@ -93,7 +93,7 @@ fn exact_bad_input_is_status_2_with_its_place() {
 }
 
 #[test]
-fn exact_fitted_model_is_one_that_runs_and_compares() {
+fn fitted_model_is_one_that_runs_and_compares() {
     let folder = tested("identify-table");
     let start = "slider.kinetic_friction=0.12";
     folder.stdout(&[
@@ -122,7 +122,7 @@ fn exact_fitted_model_is_one_that_runs_and_compares() {
 }
 
 #[test]
-fn exact_what_cannot_be_told_is_status_1() {
+fn what_cannot_be_told_is_status_1() {
     let folder = Folder::with_model("identify-refused", BLOCK);
     folder.stdout(&[
         "run",
@@ -154,7 +154,7 @@ fn exact_what_cannot_be_told_is_status_1() {
 /// The zero of a sensor is stated as a quantity, by a stretch at rest, or taken as it is; else friction by
 /// direction cannot be determined, and that is said.
 #[test]
-fn exact_zeros_of_sensors_are_stated() {
+fn zeros_of_sensors_are_stated() {
     let folder = Folder::new("sensor-zeros");
     let example = |name: &str| {
         let path = format!("{}/../../examples/laboratory/{name}", env!("CARGO_MANIFEST_DIR"));
@@ -198,7 +198,7 @@ fn exact_zeros_of_sensors_are_stated() {
 
 /// Sines at three frequencies; what was put in stands in the README of the examples.
 #[test]
-fn exact_friction_that_follows_the_speed_is_told() {
+fn friction_that_follows_the_speed_is_told() {
     let folder = Folder::new("identify-rate");
     for hz in ["0.005", "0.05", "0.5"] {
         let name = format!("bearing-{hz}hz.csv");
@@ -246,7 +246,7 @@ fn exact_friction_that_follows_the_speed_is_told() {
 
 /// What is wrong with a cyclic test is said, of the file it is wrong with.
 #[test]
-fn exact_what_is_suspicious_of_a_cyclic_test_is_said() {
+fn what_is_suspicious_of_a_cyclic_test_is_said() {
     let folder = Folder::new("cyclic-suspicious");
     let path = format!("{}/../../examples/laboratory/cyclic-1hz.csv", env!("CARGO_MANIFEST_DIR"));
     let made = std::fs::read_to_string(path).unwrap();

@@ -5,7 +5,7 @@ use slipstick::requests::{Door, Kind};
 use super::support::{BLOCK, Folder, RECORD, RECORDED, text};
 
 #[test]
-fn exact_examples_of_init_run_without_surprises() {
+fn examples_of_init_run_without_surprises() {
     for example in ["block", "mock-up", "frame"] {
         let folder = Folder::new(&format!("init-{example}"));
         folder.stdout(&["init", example, "--example", example]);
@@ -30,7 +30,7 @@ fn exact_examples_of_init_run_without_surprises() {
 }
 
 #[test]
-fn exact_schema_is_json_and_units_a_table() {
+fn schema_is_json_and_units_a_table() {
     let folder = Folder::new("schema");
     let schema: serde_json::Value = serde_json::from_str(&folder.stdout(&["schema"])).unwrap();
     assert_eq!(schema["type"], "object");
@@ -43,7 +43,7 @@ fn exact_schema_is_json_and_units_a_table() {
 
 /// What the command offers is the table of fields; what it does not, the table says.
 #[test]
-fn exact_options_are_the_fields_of_the_requests() {
+fn options_are_the_fields_of_the_requests() {
     let folder = Folder::new("fields");
     for kind in Kind::ALL {
         let command: &[&str] = match kind {
@@ -90,7 +90,7 @@ fn exact_options_are_the_fields_of_the_requests() {
 }
 
 #[test]
-fn exact_completions_know_the_options() {
+fn completions_know_the_options() {
     let folder = Folder::new("completions");
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
         let script = folder.stdout(&["completions", shell]);
@@ -101,7 +101,7 @@ fn exact_completions_know_the_options() {
 }
 
 #[test]
-fn exact_help_teaches_in_a_hundred_columns() {
+fn help_teaches_in_a_hundred_columns() {
     let folder = Folder::new("help");
     for arguments in [&["--help"] as &[&str], &["run", "--help"], &["help", "run"], &["init", "-h"]]
     {
@@ -123,7 +123,7 @@ fn exact_help_teaches_in_a_hundred_columns() {
 }
 
 #[test]
-fn exact_display_units_are_those_of_the_table_only() {
+fn display_units_are_those_of_the_table_only() {
     let folder = Folder::with_model("units", BLOCK);
     let table = |system: &str| folder.stdout(&["run", "model.toml", "--display-units", system]);
     let [si, kn_mm, us] = ["si", "kN-mm", "us"].map(table);
@@ -138,7 +138,7 @@ fn exact_display_units_are_those_of_the_table_only() {
 }
 
 #[test]
-fn exact_messages_go_to_standard_error_and_quiet_takes_them_away() {
+fn messages_go_to_standard_error_and_quiet_takes_them_away() {
     // The gap is passed, which is a warning.
     let folder =
         Folder::with_model("quiet", &BLOCK.replace("20 kN/m\"", "20 kN/m\"\ngap = \"1 mm\""));
@@ -157,7 +157,7 @@ fn exact_messages_go_to_standard_error_and_quiet_takes_them_away() {
 
 /// Without --motion the scale is that of the model's own record.
 #[test]
-fn exact_scale_without_a_motion_is_that_of_the_model() {
+fn scale_without_a_motion_is_that_of_the_model() {
     let folder = Folder::with_model("scale-of-model", RECORDED);
     folder.write("record.csv", RECORD);
     let scaled = folder.json(&["model.toml", "--scale-to", "0.3 g"]);
@@ -177,7 +177,7 @@ fn exact_scale_without_a_motion_is_that_of_the_model() {
 
 /// A tail that ends between two steps does not make the record's step uneven.
 #[test]
-fn exact_the_report_tells_the_step_of_the_record() {
+fn the_report_tells_the_step_of_the_record() {
     let model = format!("{RECORDED}\n[analysis]\ntail = \"0.7 s\"\n");
     let folder = Folder::with_model("step-of-record", &model);
     folder.write("record.csv", RECORD);
@@ -188,7 +188,7 @@ fn exact_the_report_tells_the_step_of_the_record() {
 
 /// One long line of numbers is a series as several lines of them are.
 #[test]
-fn exact_one_long_line_is_a_record() {
+fn one_long_line_is_a_record() {
     let folder = Folder::new("long-line");
     let numbers: Vec<String> =
         (0..200).map(|i| format!("{:.4}", (0.3 * f64::from(i)).sin())).collect();

@@ -6,7 +6,7 @@ use super::support::Folder;
 
 /// Chapter, figures and claims are written; what is printed is what is written.
 #[test]
-fn exact_paper_writes_what_it_prints() {
+fn paper_writes_what_it_prints() {
     let folder = Folder::new("paper");
     let printed = folder.stdout(&["paper", "--quick", "--json", "--quiet", "--out", "out"]);
     assert_eq!(printed, folder.read("out/claims.json"));
@@ -28,7 +28,7 @@ fn exact_paper_writes_what_it_prints() {
 }
 
 #[test]
-fn exact_paper_refuses_a_folder_without_records() {
+fn paper_refuses_a_folder_without_records() {
     let folder = Folder::new("paper-records");
     folder.write("records/note.md", "# no record\n");
     let told = folder.refused(&["paper", "--quick", "--records", "records"]);

@@ -279,7 +279,7 @@ fn file_plots_are_whole_and_self_contained() {
 /// Five lines do not keep it busy: a gap out of proportion is refused at its place, one within is
 /// looked at in seconds.
 #[test]
-fn exact_a_long_gap_is_refused_or_soon_done() {
+fn a_long_gap_is_refused_or_soon_done() {
     let folder = Folder::new("record-gap");
     let gap = |to: &str| {
         format!("time_s,acceleration_m_per_s2\n0,0\n0.01,1\n0.02,-1\n0.03,0.5\n{to},0\n")
@@ -335,7 +335,7 @@ fn file_a_pipe_in_a_folder_is_passed_by() {
 /// results.
 #[cfg(target_os = "linux")]
 #[test]
-fn exact_hidden_characters_are_made_visible() {
+fn hidden_characters_are_made_visible() {
     let folder = Folder::new("record-hidden");
     let name = "a\u{1b}[2J\n\u{202e}b.csv";
     let shown = r"a\u{1b}[2J\n\u{202e}b.csv";
@@ -356,7 +356,7 @@ fn exact_hidden_characters_are_made_visible() {
 
 /// A cell that a spreadsheet would run stands behind an apostrophe.
 #[test]
-fn exact_cells_that_are_formulas_are_quoted() {
+fn cells_that_are_formulas_are_quoted() {
     let folder = Folder::new("record-formula");
     folder.write("=cmd.csv", PULSE);
     let csv = folder.stdout(&["record", "spectrum", "=cmd.csv", "--period", "1 s"]);
@@ -365,7 +365,7 @@ fn exact_cells_that_are_formulas_are_quoted() {
 
 /// Names on one line and their units on the next, as data loggers write them.
 #[test]
-fn exact_two_header_rows_are_one() {
+fn two_header_rows_are_one() {
     let folder = Folder::new("record-two-rows");
     for (text, name) in [
         ("Time;Acc X\ns;m/s2\n0,0;0,0\n0,1;1,5\n0,2;0,0\n", "Acc X (m/s2)"),

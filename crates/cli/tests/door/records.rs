@@ -14,7 +14,7 @@ fn of_record(test: &str, bytes: impl AsRef<[u8]>) -> String {
 }
 
 #[test]
-fn exact_record_that_is_no_text() {
+fn record_that_is_no_text() {
     for (test, bytes, expected) in [
         ("empty", b"" as &[u8], "record.csv:1:1: expected a record, found \"an empty file\""),
         ("blank", b" \r\n\n", "record.csv:1:1: expected a record, found \"an empty file\""),
@@ -34,7 +34,7 @@ fn exact_record_that_is_no_text() {
 }
 
 #[test]
-fn exact_record_with_wrong_values() {
+fn record_with_wrong_values() {
     for (test, text, place) in [
         ("nan", RECORD.replace("-5", "nan"), "record.csv:4:3: "),
         ("infinity", RECORD.replace("-5", "inf"), "record.csv:4:3: "),
@@ -56,7 +56,7 @@ fn exact_record_with_wrong_values() {
 }
 
 #[test]
-fn exact_record_with_fewer_points_than_its_header_says() {
+fn record_with_fewer_points_than_its_header_says() {
     assert_eq!(
         of_record("fewer", AT2.replace("NPTS=   5", "NPTS=   6")),
         "record.csv:5:40: expected 6 values, as line 4 says, found \"the end after 5\""
@@ -64,7 +64,7 @@ fn exact_record_with_fewer_points_than_its_header_says() {
 }
 
 #[test]
-fn exact_record_that_cannot_be_scaled() {
+fn record_that_cannot_be_scaled() {
     let folder = Folder::with_model("zero", &format!("{RECORDED}scale_to = \"0.3 g\"\n"));
     folder.write("record.csv", "time_s,acceleration_m_per_s2\n0,0\n1,0\n2,0\n");
     assert_eq!(
@@ -79,7 +79,7 @@ fn exact_record_that_cannot_be_scaled() {
 }
 
 #[test]
-fn exact_vertical_record_is_named() {
+fn vertical_record_is_named() {
     let folder = Folder::with_model("vertical", &format!("{RECORDED}vertical = \"up.csv\"\n"));
     folder.write("record.csv", RECORD);
     assert_eq!(
@@ -101,7 +101,7 @@ fn at2(event: &str, station: &str, component: &str, peak: f64) -> String {
 
 /// A folder that holds all three components of a station is no suite of horizontal motions.
 #[test]
-fn exact_vertical_components_are_no_records_of_a_suite() {
+fn vertical_components_are_no_records_of_a_suite() {
     let folder = Folder::with_model("records-vertical", BLOCK);
     folder.write("all/RSN68_PEL090.AT2", at2("San Fernando", "LA - Hollywood", "090", 0.2));
     folder.write("all/RSN68_PEL-UP.AT2", at2("San Fernando", "LA - Hollywood", "UP", 0.1));
@@ -123,7 +123,7 @@ fn exact_vertical_components_are_no_records_of_a_suite() {
 
 /// The components of a pair are of one earthquake and two files.
 #[test]
-fn exact_pairs_are_of_one_event_and_two_files() {
+fn pairs_are_of_one_event_and_two_files() {
     let folder = Folder::with_model("records-pairs", BLOCK);
     folder.write("x.AT2", at2("KOBE 01/16/95", "SHIN-OSAKA", "000", 0.2));
     folder.write("y.AT2", at2("KOBE 01/16/95", "SHIN-OSAKA", "090", 0.15));

@@ -22,7 +22,7 @@ fn utf16(text: &str) -> Vec<u8> {
 }
 
 #[test]
-fn exact_model_that_is_no_text() {
+fn model_that_is_no_text() {
     assert_eq!(
         of_model("model-utf16", utf16(BLOCK)),
         "model.toml:1:1: expected text in UTF-8, found the byte 0xff"
@@ -39,7 +39,7 @@ fn exact_model_that_is_no_text() {
 }
 
 #[test]
-fn exact_model_that_ends_too_soon() {
+fn model_that_ends_too_soon() {
     assert_eq!(
         of_model("model-empty", ""),
         "model.toml:1:1: block: expected a table [block], found nothing"
@@ -54,7 +54,7 @@ fn exact_model_that_ends_too_soon() {
 }
 
 #[test]
-fn exact_model_too_long() {
+fn model_too_long() {
     let comment = format!("{BLOCK}#{}\n", "x".repeat(1 << 20));
     let found = of_model("model-long", &comment);
     assert_eq!(found, "model.toml: expected at most 1048576 bytes, found more");
@@ -67,7 +67,7 @@ fn exact_model_too_long() {
 }
 
 #[test]
-fn exact_values_that_no_model_has() {
+fn values_that_no_model_has() {
     for (test, from, to, expected) in [
         ("nan", "0.153", "nan", "model.toml:8:20: slider.kinetic_friction: expected "),
         ("infinity", "0.165", "inf", "model.toml:7:19: slider.static_friction: expected "),
@@ -87,7 +87,7 @@ fn exact_values_that_no_model_has() {
 }
 
 #[test]
-fn exact_messages_of_made_motions_and_tails() {
+fn messages_of_made_motions_and_tails() {
     assert_eq!(
         of_change("asked", "0.01 s", "5e-12 s"),
         "model.toml:12:75: motion.sine.dt: expected at most 100 000 000 samples, found 1.0e12"
@@ -106,7 +106,7 @@ fn exact_messages_of_made_motions_and_tails() {
 }
 
 #[test]
-fn exact_unknown_names_offer_the_nearest() {
+fn unknown_names_offer_the_nearest() {
     let found = of_change("key", "spring =", "sprng =");
     assert!(found.contains("sprng") && found.ends_with("nearest is \"spring\""), "{found}");
     let folder = Folder::with_model("names", BLOCK);
@@ -131,7 +131,7 @@ fn exact_unknown_names_offer_the_nearest() {
 }
 
 #[test]
-fn exact_paths_that_lead_nowhere() {
+fn paths_that_lead_nowhere() {
     let folder = Folder::with_model("paths", RECORDED);
     assert_eq!(
         folder.refused(&["run", "none.toml"]),
@@ -157,7 +157,7 @@ fn exact_paths_that_lead_nowhere() {
 }
 
 #[test]
-fn exact_outputs_that_cannot_be() {
+fn outputs_that_cannot_be() {
     let folder = Folder::with_model("outputs", BLOCK);
     folder.write("taken", "mine");
     for out in ["taken", "taken/deeper", "model.toml"] {
@@ -181,7 +181,7 @@ fn exact_outputs_that_cannot_be() {
 }
 
 #[test]
-fn exact_inputs_are_never_replaced() {
+fn inputs_are_never_replaced() {
     let folder = Folder::new("inputs");
     folder.write("summary.json", BLOCK);
     let expected = "summary.json: is an input of this analysis and is not overwritten";
@@ -195,7 +195,7 @@ fn exact_inputs_are_never_replaced() {
 }
 
 #[test]
-fn exact_analysis_that_fails_leaves_no_folder() {
+fn analysis_that_fails_leaves_no_folder() {
     let folder = Folder::with_model("unsolved", &BLOCK.replace("20 kN/m", "2000 MN/m"));
     let found = folder.refused(&["run", "model.toml", "--method", "stepwise", "--out", "a/b"]);
     let start = "model.toml: stepwise method: 200 iterations did not converge at 0.05 s:";
@@ -203,7 +203,7 @@ fn exact_analysis_that_fails_leaves_no_folder() {
 }
 
 #[test]
-fn exact_options_that_make_no_sense() {
+fn options_that_make_no_sense() {
     let folder = Folder::with_model("nonsense", BLOCK);
     folder.write("one.txt", "0\n1\n-1\n0\n");
     let beside = |options: &[&str]| {
@@ -233,7 +233,7 @@ fn exact_options_that_make_no_sense() {
 }
 
 #[test]
-fn exact_init_replaces_nothing_unasked() {
+fn init_replaces_nothing_unasked() {
     let folder = Folder::with_model("init-taken", "mine");
     let found = folder.refused(&["init"]);
     assert!(found.starts_with("model.toml: ") && found.contains("--force"), "{found}");
@@ -248,7 +248,7 @@ fn exact_init_replaces_nothing_unasked() {
 
 /// What is often written in another way is answered with the way to write it.
 #[test]
-fn exact_messages_name_the_mend() {
+fn messages_name_the_mend() {
     let one =
         format!("{BLOCK}\n[storey]\nmass = \"45 kg\"\nperiod = \"0.5 s\"\ndamping_ratio = 0.05\n");
     let refused = of_model("mend-storey", &one);
@@ -282,7 +282,7 @@ fn exact_messages_name_the_mend() {
 
 /// A ratio may be written in percent wherever one is taken.
 #[test]
-fn exact_ratios_in_percent() {
+fn ratios_in_percent() {
     let folder = Folder::with_model("percent", BLOCK);
     let plain =
         ["model.toml", "--set", "slider.asymmetry=0.05", "--set", "slider.kinetic_friction=0.125"];
@@ -300,7 +300,7 @@ fn exact_ratios_in_percent() {
 
 /// Notes stand apart from warnings, and what is hardly meant is said.
 #[test]
-fn exact_notes_are_not_warnings() {
+fn notes_are_not_warnings() {
     let folder = Folder::with_model("notes", RECORDED);
     let kinds = |list: &serde_json::Value| -> Vec<String> {
         let list = list.as_array().unwrap().iter();
@@ -335,7 +335,7 @@ fn exact_notes_are_not_warnings() {
 
 /// An analysis that would take hours says why and what to do, before it starts.
 #[test]
-fn exact_endless_analyses_are_refused_with_advice() {
+fn endless_analyses_are_refused_with_advice() {
     let folder = Folder::new("endless");
     let model = |mass: &str, stiffness: &str, damping: &str, storeys: usize| {
         let storey = format!(
@@ -366,7 +366,7 @@ fn exact_endless_analyses_are_refused_with_advice() {
 
 /// What was meant is named: a record is no model, a made motion is not scaled, an option belongs to another.
 #[test]
-fn exact_messages_say_what_was_meant() {
+fn messages_say_what_was_meant() {
     let folder = Folder::with_model("meant", BLOCK);
     folder.write("record.csv", RECORD);
     let at2 = "PEER NGA STRONG MOTION DATABASE RECORD\nSomewhere, 1999, Station, 090\n\
@@ -435,7 +435,7 @@ fn exact_messages_say_what_was_meant() {
 
 /// A key that takes the place of others says so: a gap is no stop.
 #[test]
-fn exact_replaced_keys_are_said() {
+fn replaced_keys_are_said() {
     let stop = "[slider]\nstop = { gap = \"50 mm\", stiffness = \"1 MN/m\" }";
     let folder = Folder::with_model("replaced", &BLOCK.replace("[slider]", stop));
     let output = folder.output(&["run", "model.toml", "--set", "slider.gap=20 mm"]);
@@ -449,7 +449,7 @@ fn exact_replaced_keys_are_said() {
 
 /// The results of a suite are not mixed with the history of an earlier run.
 #[test]
-fn exact_results_of_another_run_do_not_stay() {
+fn results_of_another_run_do_not_stay() {
     let folder = Folder::with_model("stale", BLOCK);
     folder.write("records/a.csv", RECORD);
     folder.stdout(&["run", "model.toml", "--out", "out", "-q"]);
@@ -473,7 +473,7 @@ fn exact_results_of_another_run_do_not_stay() {
 
 /// The displacement of a record that drifts is no displacement of the ground, and is marked.
 #[test]
-fn exact_drifting_displacement_is_marked() {
+fn drifting_displacement_is_marked() {
     let folder = Folder::with_model("drifting", RECORDED);
     folder.write("record.csv", RECORD);
     assert!(!folder.stdout(&["run", "model.toml"]).contains("drifts)"));
@@ -488,7 +488,7 @@ fn exact_drifting_displacement_is_marked() {
 
 /// Radii and surfaces that are hardly meant are said, and run.
 #[test]
-fn exact_suspicious_surfaces_are_said() {
+fn suspicious_surfaces_are_said() {
     let motion = "[motion]\nsine = { frequency = \"2 Hz\", amplitude = \"3 m/s2\", duration = \"2 s\", \
                   dt = \"0.01 s\" }\n";
     let model = |slider: &str| format!("[block]\nmass = \"1 t\"\n[slider]\n{slider}\n{motion}");

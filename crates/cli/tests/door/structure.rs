@@ -30,7 +30,7 @@ fn folder(test: &str, modes: &str) -> Folder {
 }
 
 #[test]
-fn exact_points_have_names_and_peaks() {
+fn points_have_names_and_peaks() {
     let json = folder("structure-points", MODES).json(&["model.toml"]);
     let points = json["points"].as_array().expect("a list");
     assert_eq!(points.len(), 2);
@@ -46,7 +46,7 @@ fn exact_points_have_names_and_peaks() {
 }
 
 #[test]
-fn exact_faults_of_a_table_of_modes_are_told_where_they_are() {
+fn faults_of_a_table_of_modes_are_told_where_they_are() {
     for (name, from, to, place) in [
         ("nan", "0.0012", "nan", "modes.csv:2:21: expected a finite number, found \"nan\""),
         ("short", ",0.0012", "", "modes.csv:2:1: expected 5 values, as the header has, found 4"),
@@ -137,7 +137,7 @@ fn faults_of_the_keys_of_a_structure_are_told_where_they_are() {
 }
 
 #[test]
-fn exact_storeys_beside_a_structure_are_refused() {
+fn storeys_beside_a_structure_are_refused() {
     let storey = "[[storey]]\nmass = \"1 t\"\nperiod = \"1 s\"\ndamping_ratio = 0.1\n";
     let folder = folder("structure-both", MODES);
     folder.write("model.toml", format!("{MODEL}{storey}"));
@@ -146,7 +146,7 @@ fn exact_storeys_beside_a_structure_are_refused() {
 }
 
 #[test]
-fn exact_examples_of_structures_run_as_they_stand() {
+fn examples_of_structures_run_as_they_stand() {
     for example in ["structure", "tank-sloshing"] {
         let folder = Folder::new(&format!("structure-init-{example}"));
         folder.stdout(&["init", "it", "--example", example]);
@@ -164,7 +164,7 @@ fn example(name: &str) -> String {
 }
 
 #[test]
-fn exact_info_says_what_was_understood_of_exported_tables() {
+fn info_says_what_was_understood_of_exported_tables() {
     let folder = Folder::new("structure-info");
     folder.write("building.csv", example("sap2000-layout.csv"));
     let text = folder.stdout(&["structure", "info", "building.csv", "--svg", "modes.svg"]);
@@ -200,7 +200,7 @@ fn opensees_report_needs_the_unit_of_mass() {
 
 /// From an exported table to a certified answer; the table of ours reads back as it was written.
 #[test]
-fn exact_converted_tables_run_in_a_model() {
+fn converted_tables_run_in_a_model() {
     let folder = Folder::with_model("structure-convert", MODEL);
     folder.write("building.csv", example("etabs-layout.csv"));
     let convert = [
@@ -235,7 +235,7 @@ fn exact_converted_tables_run_in_a_model() {
 
 /// The example that the book runs names what is made of the table beside it.
 #[test]
-fn exact_example_of_an_exported_building() {
+fn example_of_an_exported_building() {
     let folder = Folder::new("structure-example");
     folder.write("building.csv", example("sap2000-layout.csv"));
     let points = ["--point", "First=C1", "--point", "Second=C2", "--point", "Roof=C3"];
@@ -245,7 +245,7 @@ fn exact_example_of_an_exported_building() {
 }
 
 #[test]
-fn exact_tank_of_the_example_is_that_of_its_dimensions() {
+fn tank_of_the_example_is_that_of_its_dimensions() {
     let folder = Folder::new("structure-tank");
     folder.stdout(&["init", "it", "--example", "tank-sloshing"]);
     let feet = ["--radius", "32.808398950131235 ft", "--height", "26.246719160104988 ft"];

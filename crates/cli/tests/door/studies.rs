@@ -101,7 +101,7 @@ fn row(folder: &Folder, file: &str, run: u64) -> BTreeMap<String, f64> {
 }
 
 #[test]
-fn exact_whole_study_has_every_run_in_order() {
+fn whole_study_has_every_run_in_order() {
     let folder = folder("study-whole");
     let table = folder.stdout(&["study", "plan.toml", "--out", "out"]);
     assert!(table.contains("peak sliding displacement (m)"), "{table}");
@@ -148,7 +148,7 @@ fn exact_whole_study_has_every_run_in_order() {
 
 /// Mean, quantiles and maximum as one would compute them from the sorted column.
 #[test]
-fn exact_summary_is_that_of_the_sorted_values() {
+fn summary_is_that_of_the_sorted_values() {
     let folder = folder("study-summary");
     folder.stdout(&["study", "plan.toml", "--out", "out", "-q"]);
     folder.stdout(&["study", "merge", "out", "--out", "all.parquet"]);
@@ -193,7 +193,7 @@ fn exact_summary_is_that_of_the_sorted_values() {
 }
 
 #[test]
-fn exact_shards_and_threads_give_the_same_bytes() {
+fn shards_and_threads_give_the_same_bytes() {
     let folder = folder("study-shards");
     folder.stdout(&["study", "plan.toml", "--out", "one", "--jobs", "1"]);
     folder.stdout(&["study", "plan.toml", "--out", "many", "--jobs", "3"]);
@@ -219,7 +219,7 @@ fn exact_shards_and_threads_give_the_same_bytes() {
 /// Killed at some moment the study loses what was in work, no more, and leaves nothing half-written
 /// under a part's name.
 #[test]
-fn exact_killed_study_is_resumed_to_the_same_bytes() {
+fn killed_study_is_resumed_to_the_same_bytes() {
     let folder = folder("study-killed");
     let many = PLAN.replace("count = 250", "count = 2500");
     folder.write("plan.toml", many);
@@ -261,7 +261,7 @@ fn exact_killed_study_is_resumed_to_the_same_bytes() {
 /// Ctrl-C says what is done and how to go on; the line that it prints does so.
 #[cfg(unix)]
 #[test]
-fn exact_interrupted_study_says_how_to_go_on() {
+fn interrupted_study_says_how_to_go_on() {
     let folder = folder("study-interrupted");
     folder.write("plan.toml", PLAN.replace("count = 250", "count = 25000"));
     let arguments = ["study", "plan.toml", "--out", "o u t", "--force", "-q"];
@@ -286,7 +286,7 @@ fn exact_interrupted_study_says_how_to_go_on() {
 
 /// What a disk or a hand did to a part is found, said and run again, to the same bytes.
 #[test]
-fn exact_damaged_parts_are_run_again() {
+fn damaged_parts_are_run_again() {
     let folder = folder("study-damaged");
     folder.stdout(&["study", "plan.toml", "--out", "out", "-q"]);
     let (whole, summary) = (parts(&folder, "out"), folder.read("out/summary.csv"));
@@ -324,7 +324,7 @@ fn exact_damaged_parts_are_run_again() {
 
 /// A file that no part of the study is called is counted nowhere.
 #[test]
-fn exact_stray_parts_are_left_out() {
+fn stray_parts_are_left_out() {
     let folder = folder("study-stray");
     folder.stdout(&["study", "plan.toml", "--out", "out", "-q"]);
     let summary = folder.read("out/summary.csv");
@@ -344,7 +344,7 @@ fn exact_stray_parts_are_left_out() {
 
 /// The manifest says which bytes each part has, as `sha256sum` does.
 #[test]
-fn exact_manifest_has_the_hash_of_every_part() {
+fn manifest_has_the_hash_of_every_part() {
     let folder = folder("study-hashes");
     folder.stdout(&["study", "plan.toml", "--out", "out", "-q"]);
     let manifest: serde_json::Value =
@@ -369,7 +369,7 @@ fn flipped(bytes: &[u8], at: usize) -> Vec<u8> {
 
 /// The printed line gives the row's demands, to the last bit.
 #[test]
-fn exact_repeat_reproduces_rows() {
+fn repeat_reproduces_rows() {
     let folder = folder("study-repeat");
     // A file name that a shell would take apart.
     folder.write("records/c d's.csv", RECORD.replace("5", "4"));
@@ -428,7 +428,7 @@ fn words(line: &str) -> Vec<String> {
 }
 
 #[test]
-fn exact_vertical_motions_go_with_their_records() {
+fn vertical_motions_go_with_their_records() {
     let folder = folder("study-vertical");
     folder.write("up/a.csv", RECORD.replace("5", "2"));
     folder.write("up/b.csv", RECORD.replace("5", "1"));
@@ -451,7 +451,7 @@ fn exact_vertical_motions_go_with_their_records() {
 
 /// A frequency response curve is a study of the model's own made motion.
 #[test]
-fn exact_made_motions_may_be_varied() {
+fn made_motions_may_be_varied() {
     let folder = folder("study-made");
     let plan = "model = \"model.toml\"\n[vary]\n\
                 \"motion.sine.amplitude\" = { values = [\"2 m/s2\", \"4 m/s2\"] }\n\
@@ -477,7 +477,7 @@ fn exact_made_motions_may_be_varied() {
 
 /// A model's own record is a study's record too.
 #[test]
-fn exact_own_record_of_the_model() {
+fn own_record_of_the_model() {
     let folder = folder("study-own-record");
     let motion = "[motion]\nrecord = \"records/a.csv\"\nscale_to = \"0.4 g\"\n";
     let model = MODEL.split("[motion]").next().unwrap().to_owned() + motion;
@@ -496,7 +496,7 @@ fn exact_own_record_of_the_model() {
 
 /// Runs whose sample makes no model are rows, counted and told, and the study goes on.
 #[test]
-fn exact_failing_runs_are_rows() {
+fn failing_runs_are_rows() {
     let folder = folder("study-failing");
     folder.write("plan.toml", PLAN.replace("[0.02, 0.15]", "[0.1, 0.3]"));
     let output = folder.output(&["study", "plan.toml", "--out", "out"]);
@@ -512,7 +512,7 @@ fn exact_failing_runs_are_rows() {
 }
 
 #[test]
-fn exact_folders_with_files_need_a_word() {
+fn folders_with_files_need_a_word() {
     let folder = folder("study-nonempty");
     folder.write("out/mine.txt", "mine");
     let refused = folder.refused(&["study", "plan.toml", "--out", "out"]);
@@ -539,7 +539,7 @@ fn exact_folders_with_files_need_a_word() {
 
 /// What a killed study left half-written in an otherwise empty folder is no study.
 #[test]
-fn exact_leftovers_alone_need_no_word() {
+fn leftovers_alone_need_no_word() {
     let folder = folder("study-leftover");
     folder.write("out/.part-00001.parquet.4711-0.tmp", "half");
     std::fs::create_dir(folder.path().join("out/parts")).unwrap();
@@ -557,7 +557,7 @@ fn exact_leftovers_alone_need_no_word() {
 
 /// What a killed study left half-written of its other files goes, and nothing else.
 #[test]
-fn exact_leftovers_of_other_files_are_removed() {
+fn leftovers_of_other_files_are_removed() {
     let folder = folder("study-leftover-files");
     folder.stdout(&["study", "plan.toml", "--out", "out", "-q"]);
     for file in ["manifest.json", "summary.csv", "report.html", "mine.csv"] {
@@ -573,7 +573,7 @@ fn exact_leftovers_of_other_files_are_removed() {
 /// runs it.
 #[cfg(unix)]
 #[test]
-fn exact_hidden_characters_of_records_are_made_visible() {
+fn hidden_characters_of_records_are_made_visible() {
     let folder = folder("study-hidden");
     let name = "records/c\u{1b}[2J'\u{202e}d.csv";
     folder.write(name, RECORD);
@@ -595,7 +595,7 @@ fn exact_hidden_characters_of_records_are_made_visible() {
 /// Parts beside the manifest are not run a second time: they are merged as they stand, and
 /// `--resume` says where they belong.
 #[test]
-fn exact_studies_of_the_old_layout_are_known() {
+fn studies_of_the_old_layout_are_known() {
     let folder = folder("study-old-layout");
     folder.stdout(&["study", "plan.toml", "--out", "out", "-q"]);
     let whole = parts(&folder, "out");
@@ -628,7 +628,7 @@ fn exact_studies_of_the_old_layout_are_known() {
 }
 
 #[test]
-fn exact_refused_plans_say_why() {
+fn refused_plans_say_why() {
     let folder = folder("study-refused");
     let refuse = |text: &str| {
         folder.write("plan.toml", text);
@@ -677,7 +677,7 @@ fn exact_refused_plans_say_why() {
 }
 
 #[test]
-fn exact_dry_run_counts_and_writes_nothing() {
+fn dry_run_counts_and_writes_nothing() {
     let folder = folder("study-dry");
     let before = folder.contents();
     let text = folder.stdout(&["study", "plan.toml", "--dry-run"]);
@@ -689,7 +689,7 @@ fn exact_dry_run_counts_and_writes_nothing() {
 }
 
 #[test]
-fn exact_schema_of_plans_is_json() {
+fn schema_of_plans_is_json() {
     let folder = Folder::new("study-schema");
     let schema: serde_json::Value =
         serde_json::from_str(&folder.stdout(&["schema", "--plan"])).unwrap();
@@ -701,7 +701,7 @@ fn exact_schema_of_plans_is_json() {
 
 /// A level named twice would count its runs twice; a record named twice is used once, and that is said.
 #[test]
-fn exact_what_is_named_twice_is_said() {
+fn what_is_named_twice_is_said() {
     let folder = folder("named-twice");
     folder.write("twice.toml", PLAN.replace("\"0.5 g\"]", "\"0.2 g\"]"));
     let found = folder.refused(&["study", "twice.toml", "--out", "out"]);
@@ -736,7 +736,7 @@ fn exact_what_is_named_twice_is_said() {
 
 /// A study warns of what `run` warns of, on the same model and motion.
 #[test]
-fn exact_a_study_warns_as_run_does() {
+fn a_study_warns_as_run_does() {
     let folder = folder("study-warns");
     let tilted = MODEL.replace("gap = \"100 mm\"", "tilt = \"0.4 rad\"");
     folder.write("model.toml", &tilted);
@@ -766,7 +766,7 @@ fn exact_a_study_warns_as_run_does() {
 
 /// Rows with lower and upper friction are those that `run` gives beside the nominal ones.
 #[test]
-fn exact_bounds_of_friction_are_run() {
+fn bounds_of_friction_are_run() {
     let folder = folder("study-bounds");
     let bounded = "gap = \"100 mm\"\nbounds = { lower = 0.8, upper = 1.3 }";
     folder.write("model.toml", MODEL.replace("gap = \"100 mm\"", bounded));
@@ -829,7 +829,7 @@ fn exact_bounds_of_friction_are_run() {
 
 /// With `--report` a page stands beside the parts: the answer first, figures, tables, the plan.
 #[test]
-fn exact_page_of_a_study() {
+fn page_of_a_study() {
     let folder = folder("study-page");
     folder.write("plan.toml", PLAN.replace("count = 250", "count = 20"));
     folder.stdout(&["study", "plan.toml", "--out", "out", "--report", "-q"]);
@@ -850,7 +850,7 @@ fn exact_page_of_a_study() {
 
 /// Pairs of components: one factor each, by a measure of pairs or to a spectrum of a file.
 #[test]
-fn exact_pairs_of_components() {
+fn pairs_of_components() {
     let folder = folder("study-pairs");
     let other = RECORD.replace("1,5", "1,2").replace("2,-5", "2,4");
     folder.write("second/a.csv", &other);
@@ -917,7 +917,7 @@ fn exact_pairs_of_components() {
 /// Both components at once: a row a pair, with the resultants as its demands and the components beside them, to
 /// the last bit those of the command that repeats it; other stiffness along y is varied.
 #[test]
-fn exact_pairs_of_components_at_once() {
+fn pairs_of_components_at_once() {
     let folder = folder("study-plane");
     let other = RECORD.replace("1,5", "1,2").replace("2,-5", "2,4");
     folder.write("second/a.csv", &other);

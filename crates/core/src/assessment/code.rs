@@ -142,7 +142,7 @@ mod tests {
 
     /// By hand: (1 + 0.75 · 0.4) · 1.1 · 1.15 = 1.6445 and (1 − 0.75 · 0.1) · 0.8 · 0.85 = 0.629.
     #[test]
-    fn exact_three_quarters_of_aging_are_taken() {
+    fn three_quarters_of_aging_are_taken() {
         let text = "aging = 0.9..1.4, test = 0.8..1.1, specification = 0.85..1.15";
         let bounds = PropertyFactors::parse(text).unwrap().bounds();
         assert!((bounds.upper - 1.6445).abs() < 1e-15 && (bounds.lower - 0.629).abs() < 1e-15);
@@ -162,7 +162,7 @@ mod tests {
 
     /// By hand: 1 + 9/1.21 · 12 · 1.2/(18² + 24²) = 1.119008… is below the least; with e = 2.4 m, 1.238017.
     #[test]
-    fn exact_eccentricity_adds_at_least_15_percent() {
+    fn eccentricity_adds_at_least_15_percent() {
         let plan = |e: &str| {
             Plan::parse(&format!("e = {e}, y = 9 m, b = 18 m, d = 24 m, pt = 1.1")).unwrap()
         };

@@ -263,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_lists_and_ranges() {
+    fn lists_and_ranges() {
         let found = grid(&[
             "slider.kinetic_friction=0.02,.05",
             "slider.radius = 1..3m:5",
@@ -286,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_what_is_wrong_is_said_of_the_option() {
+    fn what_is_wrong_is_said_of_the_option() {
         for (option, expected) in [
             (
                 "slider.radios=1 m",

@@ -146,7 +146,7 @@ mod tests {
 
     /// A pendulum of R = 2.2 m with μ = 0.06: `k = W (1/R + μ/D)`, `β = 2/π μ/(μ + D/R)`, iterated by hand.
     #[test]
-    fn exact_pendulum_is_the_textbooks() {
+    fn pendulum_is_the_textbooks() {
         let pendulum =
             model("static_friction = 0.06\nkinetic_friction = 0.06\nradius = \"2.2 m\"\n");
         let found = LateralForce::of(&pendulum, &SPECTRUM).unwrap();
@@ -168,7 +168,7 @@ mod tests {
 
     /// Two surfaces: the outer one slides where the force reaches its friction; each dissipates by itself.
     #[test]
-    fn exact_surfaces_in_series_share_the_displacement() {
+    fn surfaces_in_series_share_the_displacement() {
         let loops = Loop { surfaces: vec![[0.02, 1.0 / 0.4], [0.08, 1.0 / 4.0]] };
         let close = |found: [f64; 2], expected: [f64; 2]| {
             assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15), "{found:?}");
@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_damping_factors_are_the_tables() {
+    fn damping_factors_are_the_tables() {
         let found = [0.0, 0.05, 0.15, 0.2, 0.45, 0.6].map(damping_factor);
         let expected = [0.8, 1.0, 1.35, 1.5, 1.95, 2.0];
         assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15), "{found:?}");
@@ -192,7 +192,7 @@ mod tests {
 
     /// Friction that the spectrum does not overcome, and friction by speed, have none.
     #[test]
-    fn exact_no_displacement_where_nothing_slides() {
+    fn no_displacement_where_nothing_slides() {
         let held = model("static_friction = 1.0\nkinetic_friction = 1.0\nradius = \"2 m\"\n");
         assert_eq!(LateralForce::of(&held, &SPECTRUM), None);
         let by_speed = model(

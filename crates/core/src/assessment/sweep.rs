@@ -51,7 +51,7 @@ mod tests {
     use crate::{input, solver};
 
     #[test]
-    fn exact_a_part_of_a_sweep_is_its_runs() {
+    fn a_part_of_a_sweep_is_its_runs() {
         let text = "[block]\nmass = \"1 kg\"\n[slider]\nstatic_friction = 0.02\nkinetic_friction = \
                     0.01\n[[storey]]\nmass = \"1 kg\"\nfrequency = \"2 Hz\"\ndamping_ratio = 0.02\n";
         let over = [("over", "slider.kinetic_friction=0.01..0.04:4".to_owned())];

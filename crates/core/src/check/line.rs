@@ -402,7 +402,7 @@ mod tests {
 
     /// The step that a record has is swept with a tail too, which begins with a jump.
     #[test]
-    fn exact_common_step_is_swept() {
+    fn common_step_is_swept() {
         for n in [0, 1, 2, 5] {
             for tail_s in [0.0, 1.0, 1.0037] {
                 let (model, motion, response) = wrong(n, 800, tail_s);
@@ -420,7 +420,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_step_of_most_intervals_is_common() {
+    fn step_of_most_intervals_is_common() {
         assert_eq!(common_step(&[0.0, 1.0, 2.0, 2.0, 3.0, 9.0], 0.0), 1.0);
         assert_eq!(common_step(&[0.0, 5.0, 6.0, 6.5, 7.5, 8.5, 9.5], 0.0), 1.0);
         assert!(common_step(&[0.0, 1.0, 2.0, 4.0, 6.0], 0.0).is_nan());
@@ -428,7 +428,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_same_bits_by_every_instruction_set() {
+    fn same_bits_by_every_instruction_set() {
         let mut levels = vec![Level::new()];
         #[cfg(target_arch = "x86_64")]
         {

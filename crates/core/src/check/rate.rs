@@ -172,7 +172,7 @@ mod tests {
 
     /// As the definition of the law has it, alone, in lanes and piece by piece.
     #[test]
-    fn exact_is_the_law() {
+    fn is_the_law() {
         let pieces = RateCurve::Pieces {
             speeds_m_per_s: vec![0.0, 1e-4, 0.05, 0.2],
             coefficients: vec![0.1, 0.03, 0.05, 0.06],

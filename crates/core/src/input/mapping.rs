@@ -467,7 +467,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_every_part_is_read() {
+    fn every_part_is_read() {
         let mapping =
             option("sliding_displacement = X1 - 'table disp' [mm] * -1 @ -12 ms").unwrap();
         let entry = &mapping.columns[0];
@@ -494,7 +494,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_options_replace_the_file() {
+    fn options_replace_the_file() {
         let file = "time = \"t [ms]\"\nforce = \"F [kN]\"\n";
         let mapping =
             Mapping::parse(Some(("m.toml", file)), &["force=G [N]".into(), "time=2 ms".into()])
@@ -504,7 +504,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_faults_say_where_and_what_is_near() {
+    fn faults_say_where_and_what_is_near() {
         let file =
             |text: &str| Mapping::parse(Some(("m.toml", text)), &[]).unwrap_err().to_string();
         let message = file("block_acceleraton = \"A\"\n");

@@ -77,7 +77,7 @@ mod tests {
 
     /// Pairs with one component in common are two motions.
     #[test]
-    fn exact_motions_are_the_same_along_both_axes() {
+    fn motions_are_the_same_along_both_axes() {
         let pair = |y: f64| {
             let motion = GroundMotion::evenly_spaced(0.1, vec![0.0, 1.0, 0.0], None).unwrap();
             Loaded::made(motion.with_y(vec![0.0, y, 0.0]).unwrap(), String::new())

@@ -165,7 +165,7 @@ mod tests {
     use crate::input::{Override, parse};
 
     #[test]
-    fn exact_lists_of_sections_read_back_the_same() {
+    fn lists_of_sections_read_back_the_same() {
         let rest = "[block]\nmass = \"325 kg\"\n[motion]\nsine = { frequency = \"1 Hz\", \
             amplitude = \"1 m/s2\", duration = \"2 s\", dt = \"0.01 s\" }\n";
         let contents = "[slider]\nstatic_friction = 0.06\nkinetic_friction = 0.05\n\
@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_written_text_reads_back_the_same() {
+    fn written_text_reads_back_the_same() {
         let text = r#"
 name = "A \"tank\" on sliders"
 [block]

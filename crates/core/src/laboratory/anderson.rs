@@ -249,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_equal_histories_score_ten() {
+    fn equal_histories_score_ten() {
         let (times_s, a) = wave(1.0, 0.0);
         let scores = anderson(&times_s, &a, &a).unwrap();
         for (name, score) in scores.scores() {
@@ -260,7 +260,7 @@ mod tests {
 
     /// Twice the history: amplitudes score 10/e, their squares 10/e⁹, shapes 10.
     #[test]
-    fn exact_doubled_history() {
+    fn doubled_history() {
         let ((times_s, a), (_, b)) = (wave(1.0, 0.0), wave(2.0, 0.0));
         let s = anderson(&times_s, &a, &b).unwrap();
         let (e1, e9) = (10.0 * libm::exp(-1.0), 10.0 * libm::exp(-9.0));
@@ -274,7 +274,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_words_and_edges() {
+    fn words_and_edges() {
         assert_eq!([3.9, 4.0, 6.0, 8.0].map(word), ["poor", "fair", "good", "excellent"]);
         let all = |cross_correlation| Anderson {
             arias_duration: 9.5,

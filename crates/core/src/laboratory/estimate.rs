@@ -144,7 +144,7 @@ mod tests {
 
     /// 1, 2, 3: mean 2, deviation 1, t = 4.30265 with two degrees of freedom.
     #[test]
-    fn exact_interval_of_three_values() {
+    fn interval_of_three_values() {
         let (mean, [low, high]) = mean_interval(&[1.0, 2.0, 3.0], 0.0).unwrap();
         assert_eq!(mean, 2.0);
         assert!((high - 2.0 - 4.302_652_729_911 / 3.0_f64.sqrt()).abs() < 1e-9);
@@ -154,7 +154,7 @@ mod tests {
 
     /// Alone the common error is uniform, alone the values are a mean; both together exceed either.
     #[test]
-    fn exact_interval_with_a_common_error() {
+    fn interval_with_a_common_error() {
         let half = |values: &[f64], reach: f64| {
             let (mean, [_, high]) = mean_interval_with_common(values, reach).unwrap();
             high - mean
@@ -177,7 +177,7 @@ mod tests {
 
     /// A process `r_k = φ r_{k−1} + noise` has `ρ_k = φᵏ`, so a length of `(1 + φ)/(1 − φ)`.
     #[test]
-    fn exact_length_of_a_process_with_memory() {
+    fn length_of_a_process_with_memory() {
         let mut random = crate::numerics::random::Random::new(4);
         let mut r = 0.0;
         let mut process = |phi: f64| -> Vec<f64> {

@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_what_is_set_and_what_is_not() {
+    fn what_is_set_and_what_is_not() {
         let told = |path: &str, value: f64, low: f64| Estimate::told(path, "", value, [low, 1.0]);
         let refused = |path: &str| Estimate::refused(path, "", "because");
         let (set, warnings) = paths(&[

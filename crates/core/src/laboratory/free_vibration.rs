@@ -244,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_decay_without_noise() {
+    fn decay_without_noise() {
         let (times_s, values) = record(1.625, 0.01, 0.0, 12.0, 1);
         let found = free_vibration(&times_s, &values);
         assert!((found.frequency.value().unwrap() / 1.625 - 1.0).abs() < 1e-6);
@@ -286,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_refusals_say_why() {
+    fn refusals_say_why() {
         let (times_s, values) = record(0.2, 0.02, 0.0, 8.0, 1);
         let found = free_vibration(&times_s, &values);
         assert!(found.frequency.why().unwrap().starts_with("too few cycles"), "{found:?}");

@@ -445,7 +445,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_columns_of_history_need_no_mapping() {
+    fn columns_of_history_need_no_mapping() {
         let text = "time_s,table_acceleration_m_per_s2,sliding_displacement_mm,\
                     storey1_acceleration (g),friction_force_n,remark\n\
                     1.0,0.5,10,1,3,7\n1.5,-0.5,-20,2,4,7\n";
@@ -467,7 +467,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_mapping_takes_differences_signs_and_shifts() {
+    fn mapping_takes_differences_signs_and_shifts() {
         let text = "t,A1,X1,U\n0,1,12,2\n10,-1,14,3\n";
         let options = [
             "time=t [ms]",
@@ -485,7 +485,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_faults_name_file_line_and_remedy() {
+    fn faults_name_file_line_and_remedy() {
         assert_eq!(
             read("time_s,force_n\n0,1\n0.01,\n0.02,1\n", &[]).unwrap_err(),
             "m.csv:3:6: expected a finite number, found \"the end of the line\""
@@ -557,7 +557,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_names_of_columns() {
+    fn names_of_columns() {
         assert_eq!(column_name(Channel::BlockAcceleration), "block_acceleration_m_per_s2");
         assert_eq!(column_name(Channel::StoreyVelocity(2)), "storey2_velocity_m_per_s");
         assert_eq!(column_name(Channel::FrictionForce), "friction_force_n");

@@ -165,7 +165,7 @@ mod tests {
 
     /// Whole cycles: Σ sin² = n/2, Σ sin sin(+φ) = n/2 cos φ.
     #[test]
-    fn exact_sines_of_other_size_and_phase() {
+    fn sines_of_other_size_and_phase() {
         let m = sine(1000, 5.0, 0.0);
         let p: Vec<f64> = sine(1000, 5.0, 0.3).iter().map(|v| 2.0 * v).collect();
         let r = russell(&m, &p).unwrap();
@@ -183,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_equal_and_opposite_histories() {
+    fn equal_and_opposite_histories() {
         let m = [1.0, -2.0, 3.0];
         let same = russell(&m, &m).unwrap();
         assert_eq!((same.magnitude, same.phase, same.comprehensive), (0.0, 0.0, 0.0));
@@ -195,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_lag_of_a_shifted_pulse() {
+    fn lag_of_a_shifted_pulse() {
         let pulse = |at: f64| -> Vec<f64> {
             (0..200)
                 .map(|i| libm::exp(-((i as f64 - at) / 6.0) * ((i as f64 - at) / 6.0)))

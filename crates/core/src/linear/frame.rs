@@ -96,7 +96,7 @@ mod tests {
 
     /// Uniform frame of n equal storeys: ω_j = 2 √(k/m) sin((2j − 1) π / (4n + 2)).
     #[test]
-    fn exact_uniform_frame_frequencies() {
+    fn uniform_frame_frequencies() {
         for n in [1, 2, 5, 20] {
             let omega = shear_frame_frequencies(&vec![3.0; n], &vec![7.0; n]);
             for (j, found) in omega.iter().enumerate() {
@@ -109,13 +109,13 @@ mod tests {
 
     /// A soft storey under a stiff frame: the lowest mode is the rigid frame on the soft storey.
     #[test]
-    fn exact_lowest_mode_of_a_graded_frame_keeps_its_digits() {
+    fn lowest_mode_of_a_graded_frame_keeps_its_digits() {
         let omega = shear_frame_frequencies(&[1.0, 1.0, 1.0], &[3e-12, 1.0, 1.0]);
         assert!((omega[0] / 1e-6 - 1.0).abs() < 2e-12, "{}", omega[0]);
     }
 
     #[test]
-    fn exact_shapes_are_orthonormal_and_complete() {
+    fn shapes_are_orthonormal_and_complete() {
         let (m, k) = ([5.0, 3.0, 8.0, 2.0], [90.0, 400.0, 70.0, 150.0]);
         let FrameModes { frequencies_rad_per_s: omega, shapes } = shear_frame_modes(&m, &k);
         for a in 0..4 {

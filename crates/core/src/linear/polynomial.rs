@@ -344,14 +344,14 @@ mod tests {
     }
 
     #[test]
-    fn exact_first_of_several_roots() {
+    fn first_of_several_roots() {
         let c = from_roots(&[0.3, 0.4, 0.9], -1.0);
         let x = first_root(&c, 1.0).expect("three roots");
         assert!((x - 0.3).abs() < 1e-15, "{x}");
     }
 
     #[test]
-    fn exact_dip_between_equal_ends() {
+    fn dip_between_equal_ends() {
         let dip = |depth: f64| {
             let mut c = from_roots(&[0.37, 0.37], 1.0);
             c[0] -= depth;
@@ -366,7 +366,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_root_at_a_start_on_zero_is_deflated_away() {
+    fn root_at_a_start_on_zero_is_deflated_away() {
         let c = from_roots(&[0.0, 0.0, 0.6], -1.0);
         let x = first_root(&deflated(&c, 2), 1.0).expect("one root");
         assert!((x - 0.6).abs() < 2e-16);
@@ -384,7 +384,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_first_root_in_a_short_part() {
+    fn first_root_in_a_short_part() {
         for part in [1e-3, 1e-6, 1e-9, 1e-12] {
             for [first, second] in [[0.3, 0.6], [0.5, 0.501], [0.25, 2.0]] {
                 let mut c = ZERO;
@@ -407,7 +407,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_largest_value_between_the_ends() {
+    fn largest_value_between_the_ends() {
         let mut c = from_roots(&[0.2, 0.8], -1.0);
         c[0] += 1.0;
         assert!((largest(&c, 1.0, f64::MIN) - 1.09).abs() < 1e-15);
@@ -416,7 +416,7 @@ mod tests {
 
     /// A frame at rest: its upper storeys follow the block by a high power of time.
     #[test]
-    fn exact_high_power_alone_is_searched_in_few_steps() {
+    fn high_power_alone_is_searched_in_few_steps() {
         let mut c = ZERO;
         c[11] = -1.0;
         assert_eq!(largest(&c, 1.0, f64::MIN), 0.0);
@@ -427,7 +427,7 @@ mod tests {
 
     /// The worst case of the chord bound: a parabola that touches it.
     #[test]
-    fn exact_chord_bound_is_reached_by_a_parabola() {
+    fn chord_bound_is_reached_by_a_parabola() {
         let touching = |gap: f64| {
             let mut c = ZERO;
             (c[0], c[1], c[2]) = (0.25 + gap, -1.0, 1.0);

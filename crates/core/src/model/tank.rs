@@ -93,7 +93,7 @@ mod tests {
     /// Linear potential flow in a rigid tank, first mode, `λ = 1.8412` the first zero of `J₁′`:
     /// `ω² = λ (g/R) tanh(λ H/R)`, `m_c/m = 2 tanh(λ H/R)/(λ (λ² − 1) H/R)`. Housner's constants are its own to 1.5 %.
     #[test]
-    fn exact_sloshing_is_that_of_potential_flow() {
+    fn sloshing_is_that_of_potential_flow() {
         let lambda = 1.841_183_781_340_659_3;
         for (radius_m, depth_m) in [(10.0, 2.0), (10.0, 8.0), (10.0, 20.0), (3.0, 12.0)] {
             let tank = LiquidTank::new(radius_m, depth_m, 0.8).expect("a tank");
@@ -110,7 +110,7 @@ mod tests {
 
     /// Eqs (9-15), (9-17) and (9-28) to (9-30) of ACI 350.3-06 worked by hand for D = 9 m, H = 4 m, to four digits.
     #[test]
-    fn exact_values_worked_by_hand() {
+    fn values_worked_by_hand() {
         let tank = LiquidTank::new(4.5, 4.0, 1.0).expect("a tank");
         assert!((tank.impulsive_mass_kg / tank.mass_kg - 0.4928).abs() < 1e-4);
         assert!((tank.impulsive_height_m - 1.5).abs() < 1e-12);
@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_nonsense_is_refused() {
+    fn nonsense_is_refused() {
         for (radius_m, depth_m, gravity) in
             [(0.0, 1.0, 1.0), (1.0, -1.0, 1.0), (1.0, 1.0, f64::NAN)]
         {

@@ -357,7 +357,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_scaling() {
+    fn scaling_multiplies_every_component() {
         let m = motion(&[0.0, 1.0, 2.0], &[0.0, -4.0, 3.0]);
         assert_eq!(m.scaled(-0.5).unwrap().horizontal_m_per_s2(), [0.0, 2.0, -1.5]);
         assert_eq!(m.scaled_to_peak(2.0).unwrap().horizontal_m_per_s2(), [0.0, -2.0, 1.5]);
@@ -365,7 +365,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_scaling_refuses_what_has_no_answer() {
+    fn scaling_refuses_what_has_no_answer() {
         let zero = motion(&[0.0, 1.0], &[0.0, 0.0]);
         assert_eq!(zero.scaled_to_peak(1.0), Err(MotionError::ZeroPeak));
         let m = motion(&[0.0, 1.0], &[0.0, 1e10]);
@@ -379,13 +379,13 @@ mod tests {
     }
 
     #[test]
-    fn exact_vertical_takes_the_factor_of_the_horizontal() {
+    fn vertical_takes_the_factor_of_the_horizontal() {
         let m = GroundMotion::new(vec![0.0, 1.0], vec![1.0, 2.0], Some(vec![3.0, 0.5])).unwrap();
         assert_eq!(m.scaled_to_peak(4.0).unwrap().vertical_m_per_s2().unwrap(), [6.0, 1.0]);
     }
 
     #[test]
-    fn exact_tail_after_zero_keeps_the_step() {
+    fn tail_after_zero_keeps_the_step() {
         let m = GroundMotion::evenly_spaced(0.1, vec![0.0, 1.0, 0.0], None).unwrap();
         let tailed = m.with_tail(0.3).unwrap();
         assert_eq!(tailed.dt_s(), Some(0.1));
@@ -396,14 +396,14 @@ mod tests {
     }
 
     #[test]
-    fn exact_tail_after_a_value_jumps() {
+    fn tail_after_a_value_jumps() {
         let m = motion(&[0.0, 0.5], &[0.0, 1.0]).with_tail(0.75).unwrap();
         assert_eq!(m.times_s(), [0.0, 0.5, 0.5, 1.0, 1.25]);
         assert_eq!(m.horizontal_m_per_s2(), [0.0, 1.0, 0.0, 0.0, 0.0]);
     }
 
     #[test]
-    fn exact_tail_after_a_jump_at_the_end() {
+    fn tail_after_a_jump_at_the_end() {
         let m = motion(&[0.0, 1.0, 1.0], &[2.0, 2.0, 1.0]).with_tail(1.0).unwrap();
         assert_eq!(m.times_s(), [0.0, 1.0, 1.0, 2.0]);
         assert_eq!(m.horizontal_m_per_s2(), [2.0, 2.0, 0.0, 0.0]);
@@ -411,7 +411,7 @@ mod tests {
 
     /// What is known of an even motion is not looked at again: the answer is that of the samples alone.
     #[test]
-    fn exact_tail_of_an_even_motion_is_a_motion_of_its_samples() {
+    fn tail_of_an_even_motion_is_a_motion_of_its_samples() {
         for (end, y) in [(0.0, None), (1.0, None), (0.0, Some(2.0)), (0.0, Some(0.0))] {
             for tail_s in [1e-9, 0.005, 0.01, 0.3, 0.301, 7.0, 5000.0] {
                 let x = vec![0.5, 1.0, -1.0, end];
@@ -429,14 +429,14 @@ mod tests {
     }
 
     #[test]
-    fn exact_tail_of_uneven_samples_uses_their_middle_interval() {
+    fn tail_of_uneven_samples_uses_their_middle_interval() {
         let m = motion(&[0.0, 0.1, 0.2, 0.200_001], &[0.0; 4]).with_tail(0.25).unwrap();
         assert_eq!(m.len(), 4 + 3);
         assert_eq!(m.duration_s(), 0.200_001 + 0.25);
     }
 
     #[test]
-    fn exact_endless_tails_are_refused_at_once() {
+    fn endless_tails_are_refused_at_once() {
         let m = motion(&[0.0, 0.01], &[0.0, 0.0]);
         assert!(matches!(m.with_tail(1e10), Err(MotionError::TooLong { .. })));
         assert!(matches!(m.with_tail(f64::NAN), Err(MotionError::OutOfRange { .. })));
@@ -444,7 +444,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_vertical_on_the_same_times() {
+    fn vertical_on_the_same_times() {
         let h = GroundMotion::evenly_spaced(0.1, vec![1.0, 2.0, 3.0], None).unwrap();
         let v = GroundMotion::evenly_spaced(0.1, vec![4.0, 5.0, 6.0], None).unwrap();
         let (both, differ) = h.with_vertical(&v, 2.0).unwrap();
@@ -456,7 +456,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_vertical_on_the_union_of_times() {
+    fn vertical_on_the_union_of_times() {
         let h = motion(&[0.0, 1.0, 2.0], &[0.0, 4.0, 0.0]);
         let v = motion(&[0.0, 0.5, 3.0], &[1.0, 0.0, 5.0]);
         let (both, differ) = h.with_vertical(&v, 1.0).unwrap();
@@ -468,7 +468,7 @@ mod tests {
 
     /// The shorter stops at 4, not at 0: it jumps to 0 there, and stays.
     #[test]
-    fn exact_shorter_component_jumps_to_zero_at_its_end() {
+    fn shorter_component_jumps_to_zero_at_its_end() {
         let h = motion(&[0.0, 1.0], &[0.0, 4.0]);
         let v = motion(&[0.0, 2.0], &[0.0, 2.0]);
         let (both, _) = h.with_vertical(&v, 1.0).unwrap();
@@ -480,7 +480,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_jumps_of_either_component_stay_jumps() {
+    fn jumps_of_either_component_stay_jumps() {
         let h = motion(&[0.0, 1.0, 1.0, 2.0], &[1.0, 1.0, -1.0, -1.0]);
         let v = motion(&[0.0, 2.0], &[0.0, 2.0]);
         let (both, _) = h.with_vertical(&v, 1.0).unwrap();
@@ -505,7 +505,7 @@ mod tests {
 
     /// Times that differ by rounding alone are one time: no interval of 1e-17 s.
     #[test]
-    fn exact_times_that_differ_by_rounding_are_one() {
+    fn times_that_differ_by_rounding_are_one() {
         let h = GroundMotion::evenly_spaced(0.1, vec![1.0; 50], None).unwrap();
         let shifted: Vec<f64> = h.times_s().iter().map(|t| (t + 0.3) - 0.3).collect();
         let v = GroundMotion::new(shifted, vec![2.0; 50], None).unwrap();

@@ -167,7 +167,7 @@ mod tests {
     /// a from 1 to −1 over 2 s: v = t − t²/2 peaks at 1/2 between the samples and ends at 0;
     /// u = t²/2 − t³/6 ends at 2/3.
     #[test]
-    fn exact_peak_velocity_between_samples() {
+    fn peak_velocity_between_samples() {
         let f = motion(&[0.0, 2.0], &[1.0, -1.0]).figures();
         close(f.pga_m_per_s2, 1.0);
         close(f.pgv_m_per_s, 0.5);
@@ -178,7 +178,7 @@ mod tests {
     /// a from 1 to −2 over 3 s: v = t − t²/2 is zero at t = 2, where u = t²/2 − t³/6 peaks at 2/3;
     /// at the end v = −3/2, u = 0.
     #[test]
-    fn exact_peak_displacement_between_samples() {
+    fn peak_displacement_between_samples() {
         let f = motion(&[0.0, 3.0], &[1.0, -2.0]).figures();
         close(f.pgv_m_per_s, 1.5);
         close(f.end_velocity_m_per_s, -1.5);
@@ -187,7 +187,7 @@ mod tests {
 
     /// Jumps: +1 for 1 s, then −1 for 1 s: v peaks at 1, u ends at 1.
     #[test]
-    fn exact_jumps_take_no_time() {
+    fn jumps_take_no_time() {
         let f = motion(&[0.0, 1.0, 1.0, 2.0], &[1.0, 1.0, -1.0, -1.0]).figures();
         close(f.pgv_m_per_s, 1.0);
         close(f.end_velocity_m_per_s, 0.0);
@@ -196,7 +196,7 @@ mod tests {
 
     /// A constant acceleration has no zero of velocity inside: the quadratic degenerates.
     #[test]
-    fn exact_constant_and_zero_acceleration() {
+    fn constant_and_zero_acceleration() {
         let f = motion(&[0.0, 2.0], &[3.0, 3.0]).figures();
         close(f.pgv_m_per_s, 6.0);
         close(f.pgd_m, 6.0);

@@ -139,7 +139,7 @@ mod tests {
 
     /// Against the sum it stands for.
     #[test]
-    fn exact_transform_is_the_sum() {
+    fn transform_is_the_sum() {
         for n in [1_usize, 2, 4, 8, 64] {
             let x: Vec<f64> = (0..n).map(|k| libm::sin((k * k) as f64) + 0.3).collect();
             let (mut re, mut im) = (x.clone(), vec![0.0; n]);
@@ -155,7 +155,7 @@ mod tests {
 
     /// A whole number of cycles of a sine: amplitude A·duration/2 at its frequency.
     #[test]
-    fn exact_sine_stands_at_its_frequency() {
+    fn sine_stands_at_its_frequency() {
         let a: Vec<f64> = (0..1024).map(|k| 3.0 * libm::sin(TAU * f64::from(k) / 64.0)).collect();
         let motion = GroundMotion::evenly_spaced(0.02, a, None).unwrap();
         let spectrum = FourierSpectrum::of(&motion, 1.0);
@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_uneven_motion_is_sampled_along_its_lines() {
+    fn uneven_motion_is_sampled_along_its_lines() {
         let motion =
             GroundMotion::new(vec![0.0, 1.0, 1.5, 3.0], vec![0.0, 4.0, 4.0, 1.0], None).unwrap();
         let (dt_s, samples) = evenly(&motion);

@@ -283,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_sine_at_quarter_periods() {
+    fn sine_at_quarter_periods() {
         let m = Sine { duration_s: 1.0, ..SINE }.motion().unwrap();
         assert_eq!(m.dt_s(), Some(0.25));
         close(m.horizontal_m_per_s2(), &[0.0, 2.0, 0.0, -2.0, 0.0]);
@@ -292,14 +292,14 @@ mod tests {
     }
 
     #[test]
-    fn exact_envelope_rises_and_falls_linearly() {
+    fn envelope_rises_and_falls_linearly() {
         let m = Sine { ramp_s: 1.0, decay_s: 0.5, ..SINE }.motion().unwrap();
         let expected = [0.0, 0.5, 0.0, -1.5, 0.0, 2.0, 0.0, -2.0, 0.0, 2.0, 0.0, -1.0, 0.0];
         close(m.horizontal_m_per_s2(), &expected);
     }
 
     #[test]
-    fn exact_last_sample_is_at_the_end() {
+    fn last_sample_is_at_the_end() {
         let m = Sine { duration_s: 0.6, ..SINE }.motion().unwrap();
         assert_eq!(m.times_s(), [0.0, 0.25, 0.5, 0.6]);
         // 0.3/0.1 is not 3 in binary: no interval of rounding's length.
@@ -310,7 +310,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_million_million_samples_are_refused_at_once() {
+    fn a_million_million_samples_are_refused_at_once() {
         let error = Sine { duration_s: 1e12, dt_s: 1.0, ..SINE }.motion().unwrap_err();
         assert!(matches!(error, MotionError::TooLong { found } if found > 1e12 - 1.0));
         let tiny = Sine { dt_s: 1e-300, ..SINE }.motion();
@@ -320,7 +320,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_parameters_out_of_range_are_named() {
+    fn parameters_out_of_range_are_named() {
         for (sine, quantity) in [
             (Sine { frequency_hz: 0.0, ..SINE }, "frequency in Hz"),
             (Sine { amplitude_m_per_s2: f64::NAN, ..SINE }, "amplitude in m/s²"),
@@ -351,7 +351,7 @@ mod tests {
     /// The frequency is the derivative of the cycles: the stated ones at both ends, their mean
     /// (arithmetic or geometric) in the middle.
     #[test]
-    fn exact_sweep_frequencies() {
+    fn sweep_frequencies() {
         for (kind, middle) in [(SweepKind::Linear, 2.0), (SweepKind::Logarithmic, 3_f64.sqrt())] {
             let sweep = Sweep { kind, ..SWEEP };
             for (t, f) in [(0.0, 1.0), (2.0, middle), (4.0, 3.0)] {
@@ -368,7 +368,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_sweep_of_one_frequency_is_a_sine() {
+    fn sweep_of_one_frequency_is_a_sine() {
         let sine = Sine { amplitude_m_per_s2: 1.0, ..SINE }.motion().unwrap();
         for kind in [SweepKind::Linear, SweepKind::Logarithmic] {
             let sweep = Sweep { kind, to_hz: 1.0, duration_s: 3.0, dt_s: 0.25, ..SWEEP };
@@ -385,7 +385,7 @@ mod tests {
     };
 
     #[test]
-    fn exact_edges_of_a_rectangle_are_jumps() {
+    fn edges_of_a_rectangle_are_jumps() {
         let m = PULSE.motion().unwrap();
         let times_s = [0.0, 0.2, 0.25, 0.25, 0.4, 0.2 * 3.0, 0.75];
         assert_eq!(m.times_s(), times_s);
@@ -398,7 +398,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_triangle_has_its_corners() {
+    fn triangle_has_its_corners() {
         let m = Pulse { shape: PulseShape::Triangular, ..PULSE }.motion().unwrap();
         assert_eq!(m.times_s(), [0.0, 0.2, 0.25, 0.4, 0.5, 0.2 * 3.0, 0.75]);
         close(&[m.figures().pga_m_per_s2, m.figures().pgv_m_per_s], &[3.0, 0.75]);
@@ -406,7 +406,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_half_sine_ends_at_zero() {
+    fn half_sine_ends_at_zero() {
         let pulse = Pulse { shape: PulseShape::HalfSine, start_s: 0.5, dt_s: 0.125, ..PULSE };
         let m = pulse.motion().unwrap();
         let h = 3.0 / 2_f64.sqrt();

@@ -389,7 +389,7 @@ mod tests {
 
     /// Series and closed form are two derivations of one matrix.
     #[test]
-    fn exact_series_and_closed_form_agree() {
+    fn series_and_closed_form_agree() {
         for xi in [0.0, 0.05, 0.5, 0.99] {
             for theta in [0.3, 0.7, 1.0] {
                 let (a, b) = (Step::by_series(theta, xi), Step::by_closed_form(theta, xi));

@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_combination_and_rotation() {
+    fn combination_and_rotation() {
         let (x, y) = (series(&[1.0, 2.0, 3.0]), series(&[4.0, -2.0, 0.0]));
         let sum = Series::combined(&[(2.0, &x), (-0.5, &y)]).unwrap();
         assert_eq!(sum.values(), [0.0, 5.0, 6.0]);
@@ -237,7 +237,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_values_between_samples() {
+    fn values_between_samples() {
         let s =
             Series::new(vec![0.0, 1.0, 1.0, 2.0], vec![0.0, 1.0, 5.0, 7.0], Quantity::Acceleration)
                 .unwrap();

@@ -222,7 +222,7 @@ mod tests {
 
     /// Constant acceleration from rest: Sd = (a/ω²)(1 + exp(−ξπ/ω_d)), whatever the sampling.
     #[test]
-    fn exact_step() {
+    fn the_response_to_a_step_is_its_closed_form() {
         for xi in [0.0, 0.02, 0.05, 0.3, 0.7] {
             for samples in [2, 3, 10, 1000] {
                 let times_s: Vec<f64> =
@@ -246,7 +246,7 @@ mod tests {
 
     /// A rise over t_r to a constant, undamped: Sd = (a/ω²)(1 + |sin(πt_r/T)|/(πt_r/T)).
     #[test]
-    fn exact_ramp_to_constant() {
+    fn ramp_to_constant() {
         for rise_s in [0.1, 0.37, 1.0, 2.35] {
             let found = one(&[0.0, rise_s, rise_s + 3.0], &[0.0, 2.0, 2.0], 1.3, 0.0);
             let x = PI * rise_s / 1.3;
@@ -258,7 +258,7 @@ mod tests {
 
     /// A ramp, undamped: u = −(j/ω³)(ωt − sin ωt), largest at the end; tiny and huge phases.
     #[test]
-    fn exact_ramp() {
+    fn the_response_to_a_ramp_is_its_closed_form() {
         for (period_s, end_s) in [(1.0, 1e-3), (1.0, 0.4), (1.0, 7.7), (100.0, 1.0)] {
             let omega = TAU / period_s;
             let x: f64 = omega * end_s;
@@ -274,7 +274,7 @@ mod tests {
 
     /// A square wave at the oscillator's period, undamped: 2nA/ω² after n half periods.
     #[test]
-    fn exact_resonance_with_jumps() {
+    fn resonance_with_jumps() {
         let (mut times_s, mut a) = (vec![0.0], vec![1.5]);
         for k in 1..=20 {
             let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
@@ -288,7 +288,7 @@ mod tests {
     /// A sine at resonance, from rest, undamped, sampled finely: u = −(A/2ω²)(sin ωt − ωt cos ωt).
     /// Straight lines between samples act as a sine smaller by sinc²(ωh/2).
     #[test]
-    fn exact_resonance_with_a_sampled_sine() {
+    fn resonance_with_a_sampled_sine() {
         let n = 4000;
         let (cycles, period_s) = (10.0, 1.0);
         let times_s: Vec<f64> = (0..=n).map(|i| cycles * i as f64 / n as f64).collect();
@@ -303,7 +303,7 @@ mod tests {
 
     /// Several extremes in one interval, the largest not next to an end.
     #[test]
-    fn exact_many_extremes_in_one_interval() {
+    fn many_extremes_in_one_interval() {
         // One jump from 0 to −a at rest position of +a: u from 2·swing; then 50 periods of decay.
         let omega = TAU / 0.1;
         let xi = 0.01;
@@ -328,7 +328,7 @@ mod tests {
 
     /// Subdividing a piecewise-linear history changes nothing; nor does shifting its clock.
     #[test]
-    fn exact_subdivided_history_has_the_same_spectrum() {
+    fn subdivided_history_has_the_same_spectrum() {
         let coarse_s: Vec<f64> = (0..60).map(|i| 0.13 * f64::from(i)).collect();
         let a: Vec<f64> = (0..60).map(|i| libm::sin(f64::from(i * i))).collect();
         let (mut fine_s, mut b) = (vec![], vec![]);
@@ -353,7 +353,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_rigid_oscillator_follows_the_ground() {
+    fn rigid_oscillator_follows_the_ground() {
         let rigid = one(&[0.0, 1.0, 2.0], &[1.0, -4.0, 2.0], 0.0, 0.05);
         assert_eq!((rigid.sd_m, rigid.psa_m_per_s2, rigid.sa_m_per_s2), (0.0, 4.0, 4.0));
         // Next to rigid it nearly does.
@@ -362,7 +362,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_nonsense_is_refused() {
+    fn nonsense_is_refused() {
         let (t, a) = ([0.0, 1.0], [1.0, 1.0]);
         for period_s in [-1.0, f64::NAN, f64::INFINITY, 1e-9] {
             assert!(spectrum(&t, &a, &[period_s], &[0.05]).is_err(), "{period_s}");

@@ -217,7 +217,7 @@ mod tests {
 
     /// The corners of the shape, and its branches on both sides of them.
     #[test]
-    fn exact_shape_of_the_code() {
+    fn shape_of_the_code() {
         let shape = TargetSpectrum::Code { sds_m_per_s2: 10.0, sd1_m_per_s2: 6.0, tl_s: 4.0 };
         for (period_s, expected) in [
             (0.0, 4.0),
@@ -234,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_points_are_joined_on_logarithms() {
+    fn points_are_joined_on_logarithms() {
         let target = TargetSpectrum::points(vec![0.1, 1.0, 4.0], vec![8.0, 8.0, 2.0]).unwrap();
         assert!((target.at(0.3).unwrap() - 8.0).abs() < 1e-12);
         assert!((target.at(2.0).unwrap() - 4.0).abs() < 1e-12);
@@ -251,7 +251,7 @@ mod tests {
 
     /// Pairs of the target's own shape are brought onto it; a dip of their mean raises all.
     #[test]
-    fn exact_pairs_are_brought_to_the_target() {
+    fn pairs_are_brought_to_the_target() {
         let target = TargetSpectrum::Code { sds_m_per_s2: 10.0, sd1_m_per_s2: 6.0, tl_s: 4.0 };
         let periods = matching_periods([0.2, 3.0]);
         assert_eq!((periods[0], periods[PERIODS - 1]), (0.2, 3.0));

@@ -124,7 +124,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_inverse_of_a_matrix_of_hilbert() {
+    fn inverse_of_a_matrix_of_hilbert() {
         let matrix =
             vec![vec![1.0, 0.5, 1.0 / 3.0], vec![0.5, 1.0 / 3.0, 0.25], vec![1.0 / 3.0, 0.25, 0.2]];
         let expected = [[9.0, -36.0, 30.0], [-36.0, 192.0, -180.0], [30.0, -180.0, 180.0]];
@@ -139,7 +139,7 @@ mod tests {
 
     /// A line through three points: slope and offset by the formulas of the textbook.
     #[test]
-    fn exact_line() {
+    fn a_line_has_the_least_squares() {
         let rows = [([1.0, 0.0], 1.0), ([1.0, 1.0], 3.0), ([1.0, 2.0], 4.0)];
         let fit = linear_fit(&rows).unwrap();
         assert!((fit.coefficients[1] - 1.5).abs() < 1e-12);

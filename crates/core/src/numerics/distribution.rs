@@ -305,7 +305,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_probability_and_inverse_undo_each_other() {
+    fn probability_and_inverse_undo_each_other() {
         for i in 1..1000 {
             let u = f64::from(i) / 1000.0;
             assert!((normal_cdf(normal_quantile(u)) - u).abs() < 4e-16, "{u}");
@@ -315,7 +315,7 @@ mod tests {
 
     /// Half a normal distribution: its median is that of the whole at 3/4.
     #[test]
-    fn exact_truncated_halves_and_tails() {
+    fn truncated_halves_and_tails() {
         let z = normal_quantile_between(0.5, [0.0, f64::INFINITY]).unwrap();
         assert!((z - normal_quantile(0.75)).abs() < 1e-15);
         let z = normal_quantile_between(0.5, [-1.0, 1.0]).unwrap();
@@ -331,7 +331,7 @@ mod tests {
 
     /// One and two degrees of freedom have closed forms.
     #[test]
-    fn exact_closed_forms() {
+    fn closed_forms() {
         let one = libm::tan(0.5 * core::f64::consts::PI * 0.95);
         assert!((student_quantile(0.95, 1.0) / one - 1.0).abs() < 1e-12);
         let two = 0.95 * (2.0 / (1.0 - 0.95 * 0.95_f64)).sqrt();

@@ -88,7 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_medians_of_odd_and_even_numbers() {
+    fn medians_of_odd_and_even_numbers() {
         assert_eq!([median(&[3.0, 1.0, 2.0]), median(&[4.0, 1.0, 2.0, 8.0])], [2.0, 3.0]);
         assert!(median(&[]).is_nan());
         assert_eq!(upper_median([3.0, 1.0, 2.0]), Some(2.0));

@@ -34,7 +34,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_unit_interval_is_open() {
+    fn unit_interval_is_open() {
         assert_eq!(unit(0), 1.0 / (1_u64 << 53) as f64);
         assert_eq!(1.0 - unit(u64::MAX), 1.0 / (1_u64 << 53) as f64);
     }

@@ -42,7 +42,7 @@ mod tests {
     const MOST: u64 = 100_000_000;
 
     #[test]
-    fn exact_each_interval_is_taken_once() {
+    fn each_interval_is_taken_once() {
         for count in [1, 2, 3, 5, 16, 17, 100, 1000, 4097] {
             let mut seen = vec![false; count as usize];
             for index in 0..count {
@@ -56,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_largest_hypercube_stays_inside() {
+    fn largest_hypercube_stays_inside() {
         for index in [0, 1, MOST / 2, MOST - 1] {
             let u = coordinate(index, MOST, Stream::new(1, 1, 5), Stream::new(1, 2, 5));
             assert!(0.0 < u && u < 1.0);

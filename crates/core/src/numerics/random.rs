@@ -86,7 +86,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_one_point_a_slice() {
+    fn one_point_a_slice() {
         let cube = Random::new(3).latin_hypercube(20, 3);
         for axis in 0..3 {
             let mut slices: Vec<usize> = cube.iter().map(|p| (20.0 * p[axis]) as usize).collect();

@@ -126,7 +126,7 @@ mod tests {
     /// The first 2^k points have one coordinate in each of 2^k equal intervals, scrambled or not;
     /// of two dimensions 1024 points fill every binary box of the (0, m, 2)-net of the first two.
     #[test]
-    fn exact_scrambled_points_stay_a_net() {
+    fn scrambled_points_stay_a_net() {
         for dimension in 0..MAX_DIMENSIONS {
             let mut seen = [false; 1024];
             for u in points(dimension, 1024, 11) {

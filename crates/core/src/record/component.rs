@@ -48,7 +48,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_azimuths() {
+    fn azimuths_are_read() {
         for (name, degrees) in [
             ("360", Some(360.0)),
             ("067", Some(67.0)),

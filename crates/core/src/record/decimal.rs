@@ -85,7 +85,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn exact_forms() {
+    fn numbers_are_read_in_every_form() {
         for word in [
             "0",
             "-0",

@@ -258,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_formats() {
+    fn fortran_formats_are_read() {
         for (format, fields) in [
             ("(8f9.6)", Some((8, 9))),
             ("(10I8)", Some((10, 8))),
@@ -282,7 +282,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_touching_fields() {
+    fn touching_fields() {
         let text = "n\n 1.5057E+0-2.2223E+0\n-1.5057E+0 2.2223E+0\n 1.0000E+0\n";
         let expected = vec![1.5057, -2.2223, -1.5057, 2.2223, 1.0];
         assert_eq!(values(text, Fields::new(2, 10), 5), Ok(expected));
@@ -295,7 +295,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_faults_have_their_place() {
+    fn faults_have_their_place() {
         for (text, expected) in [
             (
                 "n\n  1.25  2.25\n  3.25  4.2\n",
@@ -332,7 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_header_numbers_may_be_missing() {
+    fn header_numbers_may_be_missing() {
         let text = Text::new("f", b"    913043*****     \n    7\n").unwrap();
         let mut cursor = Cursor::new(&text);
         let numbers = cursor.header_numbers(Fields::new(4, 5), 5, "integers").unwrap();

@@ -330,13 +330,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_azimuths_of_codes() {
+    fn azimuths_of_codes() {
         let codes = ["HNE", "HNN", "HNZ", "HN1", "E", "NNE E"];
         assert_eq!(codes.map(azimuth_of_code), [Some(90.0), Some(0.0), None, None, None, None]);
     }
 
     #[test]
-    fn exact_number_and_its_last_digit() {
+    fn number_and_its_last_digit() {
         let number = |bytes: &'static [u8]| {
             let (value, digit) = Field::from(Line { number: 1, bytes }, 0).number()?;
             Some((value, (1e12 * digit).round() / 1e12))
@@ -350,7 +350,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_keys() {
+    fn keys_are_found() {
         let text =
             Text::new("f", b"#Rate(Hz): 50\nUNITS: cm/s^2 \n NO. OF : 7\nUNITSX: 3\n").unwrap();
         let keys = Keys { lines: text.lines().collect() };

@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_vertical_components_by_header_and_name() {
+    fn vertical_components_by_header_and_name() {
         for (component, name, vertical) in [
             ("", "RSN68_SFERN_PEL-UP.AT2", true),
             ("", "RSN169_IMPVALL.H_H-DLTDWN.AT2", true),
@@ -169,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_components_of_two_earthquakes_are_apart() {
+    fn components_of_two_earthquakes_are_apart() {
         let of = |event: &str, station: &str| Origin {
             event: Some(event.to_owned()),
             station: Some(station.to_owned()),

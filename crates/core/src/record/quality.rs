@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_rest() {
+    fn what_does_not_start_or_end_at_rest_is_noticed() {
         assert!(kinds(&[0.0, 1.0, -1.0, 0.0], Sampling::Dt(0.1)).is_empty());
         assert_eq!(kinds(&[1.0, -1.0], Sampling::Dt(0.1)), ["first_sample_not_zero"]);
         assert_eq!(kinds(&[0.0, 1.0, 0.0], Sampling::Dt(0.1)), ["record_drift"]);
@@ -243,14 +243,14 @@ mod tests {
 
     /// 100 g and a millionth of g are other units.
     #[test]
-    fn exact_absurd_peaks() {
+    fn absurd_peaks() {
         let of = |peak: f64| kinds(&[0.0, peak, -peak, 0.0], Sampling::Dt(0.1));
         assert_eq!([of(981.0), of(1e-5)], [["absurd_peak"], ["absurd_peak"]]);
         assert!(of(40.0).is_empty() && of(2e-3).is_empty() && of(0.0).is_empty());
     }
 
     #[test]
-    fn exact_clipped_peaks() {
+    fn clipped_peaks() {
         let clip = |limit: f64| -> Vec<f64> {
             let value = |k: i32| 2.0 * libm::sin(f64::from(k) * 0.1);
             (0..200).map(|k| value(k).clamp(-limit, limit)).collect()
@@ -263,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_gaps_and_repeated_rows() {
+    fn gaps_and_repeated_rows() {
         let mut times_s: Vec<f64> = (0..50).map(|k| f64::from(k) * 0.01).collect();
         let values = vec![0.0; 50];
         times_s[30..].iter_mut().for_each(|t| *t += 0.07);

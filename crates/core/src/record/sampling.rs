@@ -175,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_steps() {
+    fn an_even_step_is_told_from_rounded_times() {
         assert_eq!(resolution(&[0.0, 0.02, 0.04]), 0.01);
         assert_eq!(resolution(&[0.0, 0.005, 163.42]), 0.001);
         let (sampling, warnings) = of_times(rounded(0.02, 100.0, 50), None).unwrap();
@@ -184,7 +184,7 @@ mod tests {
 
     /// 163.39999 where 163.4 was meant.
     #[test]
-    fn exact_last_decimal_is_rounding() {
+    fn last_decimal_is_rounding() {
         let mut times_s = rounded(0.02, 1e5, 100);
         times_s[40] -= 1e-5;
         let (sampling, warnings) = of_times(times_s, None).unwrap();
@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_uneven_times_stay() {
+    fn uneven_times_stay() {
         let times_s = vec![0.0, 0.01, 0.03, 0.04];
         let (sampling, warnings) = of_times(times_s.clone(), None).unwrap();
         assert_eq!((sampling, warnings.len()), (Sampling::Times(times_s), 1));
@@ -203,7 +203,7 @@ mod tests {
 
     /// A step of 0.0025 s written as 0.003 s again and again.
     #[test]
-    fn exact_rounded_step_is_doubted_and_may_be_replaced() {
+    fn rounded_step_is_doubted_and_may_be_replaced() {
         let times_s = rounded(0.003, 1e3, 100);
         let (sampling, warnings) = of_times(times_s.clone(), None).unwrap();
         assert_eq!((sampling, warnings[0].kind), (Sampling::Dt(0.003), NoticeKind::TimesRounded));
@@ -215,7 +215,7 @@ mod tests {
 
     /// Thirds of a hundredth with three decimals: 0.003, 0.007, 0.010, …
     #[test]
-    fn exact_times_may_be_replaced_by_the_step_they_round() {
+    fn times_may_be_replaced_by_the_step_they_round() {
         let times_s = rounded(1.0 / 300.0, 1e3, 100);
         let (sampling, warnings) = of_times(times_s.clone(), Some(1.0 / 300.0)).unwrap();
         assert_eq!((sampling, warnings.len()), (Sampling::Dt(1.0 / 300.0), 1));

@@ -35,7 +35,7 @@ fn peer(last: &str) -> String {
 }
 
 #[test]
-fn exact_every_way_to_write_count_and_step() {
+fn every_way_to_write_count_and_step() {
     for last in [
         "NPTS=  3, DT= .01000 SEC",
         "NPTS=   3, dt=  .01000",
@@ -57,7 +57,7 @@ fn exact_every_way_to_write_count_and_step() {
 }
 
 #[test]
-fn exact_what_a_peer_header_says() {
+fn what_a_peer_header_says() {
     let record = ok(&peer("NPTS=  3, DT= .01000 SEC"), &NOTHING);
     let channel = &record.channels[0];
     assert_eq!(channel.event.as_deref(), Some("Borrego Mtn, 4/9/1968"));
@@ -71,7 +71,7 @@ fn exact_what_a_peer_header_says() {
 }
 
 #[test]
-fn exact_velocity_and_displacement() {
+fn velocity_and_displacement() {
     for (quantity, units, layout) in
         [("VELOCITY", "CM/S", "PEER VT2"), ("DISPLACEMENT", "CM", "PEER DT2")]
     {
@@ -86,7 +86,7 @@ fn exact_velocity_and_displacement() {
 }
 
 #[test]
-fn exact_peer_faults_are_refused_with_their_place() {
+fn peer_faults_are_refused_with_their_place() {
     for (last, expected) in [
         (
             "NPTS=  28OO, DT= .005 SEC",
@@ -129,7 +129,7 @@ fn exact_peer_faults_are_refused_with_their_place() {
 
 /// A number cut in the middle is another number: any start of a file is refused.
 #[test]
-fn exact_no_start_of_a_peer_file_is_the_whole() {
+fn no_start_of_a_peer_file_is_the_whole() {
     let whole =
         format!("{HEAD}NPTS=  6, DT= .01 SEC\n .1E-01 -.2E-01  .3E-01\n .1E-01 -.2E-01  .3E-01");
     assert_eq!(ok(&whole, &NOTHING).channels[0].values.len(), 6);
@@ -144,7 +144,7 @@ fn exact_no_start_of_a_peer_file_is_the_whole() {
 }
 
 #[test]
-fn exact_what_a_peer_file_states_is_not_overruled() {
+fn what_a_peer_file_states_is_not_overruled() {
     let text = peer("NPTS=  3, DT= .0067 SEC");
     ok(&text, &g_at(0.0067));
     // The header has four decimals: 1/150 s is what they round.
@@ -166,7 +166,7 @@ fn exact_what_a_peer_file_states_is_not_overruled() {
 }
 
 #[test]
-fn exact_one_column() {
+fn one_column() {
     let record = ok("0.1\n-0.2\n+.3E+000\n", &g_at(0.01));
     assert_eq!(values(&record.channels[0]), [0.1, -0.2, 0.3]);
     let described = record.describe(&record.channels[0]);
@@ -180,7 +180,7 @@ fn exact_one_column() {
 }
 
 #[test]
-fn exact_count_and_step_on_the_first_line() {
+fn count_and_step_on_the_first_line() {
     for text in ["m1\n3 0.01\n0.1\n-0.2\n0.3\n", "3 0.01\n0.01 0.1\n0.02 -0.2\n0.03 0.3\n"] {
         let record = ok(text, &g());
         assert_eq!(values(&record.channels[0]), [0.1, -0.2, 0.3]);
@@ -195,7 +195,7 @@ fn exact_count_and_step_on_the_first_line() {
 
 /// The header of the manual needs no other key, whatever divides it.
 #[test]
-fn exact_named_columns() {
+fn named_columns() {
     let text = "time_s,acceleration_m_per_s2,vertical_acceleration_m_per_s2\r\n\
         0,0.0,1\r\n0.01,0.5,2\r\n0.02,-0.5,3\r\n";
     for text in [
@@ -220,7 +220,7 @@ fn exact_named_columns() {
 }
 
 #[test]
-fn exact_units_in_brackets() {
+fn units_in_brackets() {
     let text = "Time [ms],Acceleration [g],Velocity [m/s],Temperature [C]\n0,1,2,3\n10,4,5.0,6\n";
     let record = ok(text, &NOTHING);
     let [a, v] = record.channels.as_slice() else { panic!("{record:?}") };
@@ -233,7 +233,7 @@ fn exact_units_in_brackets() {
 }
 
 #[test]
-fn exact_jumps_and_uneven_times() {
+fn jumps_and_uneven_times() {
     let record = ok("0 1\n1 1\n1 -1\n3 -1\n", &g());
     assert_eq!(record.channels[0].sampling, Sampling::Times(vec![0.0, 1.0, 1.0, 3.0]));
     let described = record.describe(&record.channels[0]);
@@ -243,13 +243,13 @@ fn exact_jumps_and_uneven_times() {
 }
 
 #[test]
-fn exact_clock_starts_at_the_first_sample() {
+fn clock_starts_at_the_first_sample() {
     let record = ok("0.02 1\n0.04 2\n0.06 3\n", &g());
     assert_eq!(record.channels[0].sampling, Sampling::Dt(0.02));
 }
 
 #[test]
-fn exact_values_along_the_lines() {
+fn values_along_the_lines() {
     let record = ok("1 2 3 4\n3 2 1 0\n-1 0 1 2\n1 0\n*** End Data ***\n", &g_at(0.5));
     assert_eq!(
         values(&record.channels[0]),
@@ -262,7 +262,7 @@ fn exact_values_along_the_lines() {
 }
 
 #[test]
-fn exact_text_faults_are_refused_with_their_place() {
+fn text_faults_are_refused_with_their_place() {
     for (text, expected) in [
         ("0 1\n0.1 2\n0.2\n", r#"f:3:1: expected 2 numbers, as in the rows before, found "1""#),
         ("0 1\n0.1 2\n0.2 3 4\n", r#"f:3:1: expected 2 numbers, as in the rows before, found "3""#),
@@ -308,7 +308,7 @@ fn exact_text_faults_are_refused_with_their_place() {
 
 /// The end-of-file mark of old systems is white space, wherever it stands.
 #[test]
-fn exact_end_of_file_mark() {
+fn end_of_file_mark() {
     for text in ["1\n2\n\x1a", "1\n2\x1a", "1\n2\n\x1a\n", "\x1a\n1\n2\n"] {
         assert_eq!(values(&ok(text, &g_at(0.1)).channels[0]), [1.0, 2.0], "{text:?}");
     }
@@ -316,14 +316,14 @@ fn exact_end_of_file_mark() {
 }
 
 #[test]
-fn exact_dt_of_zero_is_refused() {
+fn dt_of_zero_is_refused() {
     for dt_s in [0.0, -0.01, f64::NAN, f64::INFINITY] {
         assert!(message("1\n2\n", &g_at(dt_s)).contains("a time step > 0 s given as dt"));
     }
 }
 
 #[test]
-fn exact_format_can_be_forced() {
+fn format_can_be_forced() {
     let text = peer("NPTS=  3, DT= .01000 SEC");
     for format in Format::ALL {
         assert_eq!(Format::from_keyword(format.keyword()), Some(format));

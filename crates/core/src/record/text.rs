@@ -261,7 +261,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_line_ends() {
+    fn line_ends() {
         let text = Text::new("t", b"a\nb\r\nc\r\r\nd\re\n\nf").unwrap();
         let lines: Vec<_> = text.lines().map(|l| (l.number, l.trimmed())).collect();
         let expected = ["a", "b", "c", "d", "e", "", "f"];
@@ -272,7 +272,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_numbers() {
+    fn numbers_are_read_in_every_notation() {
         for (word, value) in [
             ("1", 1.0),
             ("-.8075668E-03", -0.000_807_566_8),
@@ -293,7 +293,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_bytes_that_are_no_text() {
+    fn bytes_that_are_no_text() {
         let message = |bytes: &[u8]| Text::new("f", bytes).err().unwrap().to_string();
         assert_eq!(message(b""), r#"f:1:1: expected a record, found "an empty file""#);
         assert_eq!(message(b" \r\n\n"), r#"f:1:1: expected a record, found "an empty file""#);

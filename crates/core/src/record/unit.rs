@@ -139,7 +139,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_spellings() {
+    fn units_are_known_by_every_spelling() {
         for (word, symbol, si) in [
             ("g", "g", 9.80665),
             ("G", "g", 9.80665),

@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_fields() {
+    fn fields_keep_their_width() {
         for (value, field) in [
             (1.5057, " 1.5057000"),
             (-2.2223, "-2.2223000"),
@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_labels_survive() {
+    fn labels_survive() {
         let values = vec![0.0, 1.0, -2.0, 0.5];
         let written = channel("g", values, 0.005);
         for text in [write_at2(&written).unwrap(), write_smc(&written).unwrap()] {
@@ -232,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_what_cannot_be_written() {
+    fn what_cannot_be_written() {
         let counts = channel("counts", vec![1.0, 2.0], 0.01);
         assert_eq!(write_csv(&counts), Err(RecordWriteError::Counts));
         let mut uneven = channel("g", vec![1.0, 2.0, 3.0], 0.01);

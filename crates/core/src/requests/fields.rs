@@ -269,7 +269,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_what_is_no_field_is_said_with_the_nearest() {
+    fn what_is_no_field_is_said_with_the_nearest() {
         let error = |kind, name, text: &str| {
             Request::new(kind, [(name, text.to_owned())]).unwrap_err().to_string()
         };
@@ -290,7 +290,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_each_door_says_a_field_in_its_own_words() {
+    fn each_door_says_a_field_in_its_own_words() {
         let error = ChoiceError {
             what: "scale-to slider.gap".to_owned(),
             expected: "`scale-to` or `code-spectrum`".to_owned(),

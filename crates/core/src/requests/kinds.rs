@@ -561,7 +561,7 @@ mod tests {
     use crate::requests::Request;
 
     #[test]
-    fn exact_fields_have_one_name_each_and_defaults_that_may_be_given() {
+    fn fields_have_one_name_each_and_defaults_that_may_be_given() {
         for (place, kind) in Kind::ALL.into_iter().enumerate() {
             assert_eq!((kind as usize, Kind::of_name(kind.name())), (place, Some(kind)));
             let fields = kind.fields();

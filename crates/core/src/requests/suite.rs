@@ -262,7 +262,7 @@ mod tests {
 
     /// The plan of a request is one that a study reads: a period sets the radius, static friction keeps its ratio.
     #[test]
-    fn exact_the_plan_of_a_request_is_a_plan() {
+    fn the_plan_of_a_request_is_a_plan() {
         let text = "[block]\nmass = \"1 kg\"\n[slider]\nstatic_friction = 0.06\nkinetic_friction = 0.05\n\
                     radius = \"2 m\"\n";
         let analysis = input::parse("model.toml", text, &[]).unwrap();

@@ -91,7 +91,7 @@ mod tests {
 
     /// √(1 − 0.6²) = 0.8.
     #[test]
-    fn exact_flat_geometry_is_short_of_the_dish() {
+    fn flat_geometry_is_short_of_the_dish() {
         let block = || Model::builder().block("1 t").friction(0.06, 0.05);
         let pendulum = block().radius("2 m").build().unwrap();
         assert_eq!(flat_geometry(&pendulum, &slid(0.4)), None);
@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_flat_geometry_of_surfaces_is_that_of_each() {
+    fn flat_geometry_of_surfaces_is_that_of_each() {
         let surface =
             |friction, radius_m| Surface { friction, radius_m: Some(radius_m), travel_m: None };
         let series =

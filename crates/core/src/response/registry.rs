@@ -637,7 +637,7 @@ mod tests {
     use crate::response::StoreyDemands;
 
     #[test]
-    fn exact_columns_and_values_stand_in_the_same_order() {
+    fn columns_and_values_stand_in_the_same_order() {
         let storey = |peak_drift_m| StoreyDemands { peak_drift_m, ..Default::default() };
         let demands = Demands {
             peak_sliding_displacement_m: 1.0,
@@ -663,7 +663,7 @@ mod tests {
 
     /// No name twice, every name found again, and names end in the unit of their demand.
     #[test]
-    fn exact_names_are_found_again() {
+    fn names_are_found_again() {
         let columns =
             DemandShape { storeys: 12, points: 3, stop: true, surfaces: 3, contents: 2 }.columns();
         for (i, column) in columns.iter().enumerate() {

@@ -406,7 +406,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_sizes_and_roughness_of_every_batch() {
+    fn sizes_and_roughness_of_every_batch() {
         fearless_simd::dispatch!(fearless_simd::Level::new(), simd => sizes_and_roughness(simd));
     }
 

@@ -248,7 +248,7 @@ mod tests {
 
     /// 40 bytes × 11 numbers × 9e7 samples.
     #[test]
-    fn exact_histories_that_do_not_fit_are_refused() {
+    fn histories_that_do_not_fit_are_refused() {
         let friction = Friction::new(0.1, 0.1).unwrap();
         let model = Model::rigid_block(100.0, friction).unwrap();
         assert_eq!(fits(&model, 9_000_000), Ok(()));

@@ -86,7 +86,7 @@ mod tests {
     /// At every sample the extents are at least those of the samples from there on, and no more than those of
     /// the eights that these touch.
     #[test]
-    fn exact_extents_of_every_window() {
+    fn extents_of_every_window() {
         let mut x = 1_u32;
         let table: Vec<f64> = (0..203)
             .map(|_| {

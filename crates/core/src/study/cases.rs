@@ -403,7 +403,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_runs_count_bounds_and_samples_fastest() {
+    fn runs_count_bounds_and_samples_fastest() {
         let cases = Cases { records: 3, levels: 2, samples: 5, bounds: 2 };
         let factors = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
         assert_eq!((cases.runs(), cases.models()), (Some(60), 10));

@@ -254,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_grid_counts_the_last_path_fastest() {
+    fn grid_counts_the_last_path_fastest() {
         let vary = "slider.radius = { values = [\"1 m\", \"2 m\"] }\n\
                     slider.gap = { linspace = [\"1 m\", \"3 m\", 3] }";
         let design = design(vary, "method = \"grid\"").unwrap();
@@ -264,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_pairs_stay_together() {
+    fn pairs_stay_together() {
         let vary = "slider.radius = { values = [\"1 m\", \"2 m\", \"3 m\"] }\n\
                     slider.gap = { values = [\"10 m\", \"20 m\", \"30 m\"], \
                     paired_with = \"slider.radius\" }\n\
@@ -283,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_factors_multiply_drawn_and_fixed_values() {
+    fn factors_multiply_drawn_and_fixed_values() {
         let vary = "slider.static_friction = { factor_of = \"slider.kinetic_friction\", \
                     values = [1, 1.5] }\n\
                     slider.kinetic_friction = { values = [0.1, 0.2] }\n\
@@ -311,7 +311,7 @@ mod tests {
     /// Sample quantiles of each distribution are those of theory: 4096 points of a net lie within
     /// one rank of it, 1/4096 of probability.
     #[test]
-    fn exact_quantiles_of_distributions() {
+    fn quantiles_of_distributions() {
         let vary = "slider.kinetic_friction = { normal = [0.1, 0.01] }\n\
                     slider.radius = { lognormal = [\"2 m\", 0.5], truncated = [\"1 m\", \"4 m\"] }\n\
                     slider.gap = { uniform = [\"1 m\", \"3 m\"] }";
@@ -336,7 +336,7 @@ mod tests {
 
     /// The rank correlation of a Gaussian copula is 6/π asin(ρ/2), whatever the margins.
     #[test]
-    fn exact_copula_has_its_rank_correlation() {
+    fn copula_has_its_rank_correlation() {
         let vary = "slider.kinetic_friction = { lognormal = [0.1, 0.3] }\n\
                     slider.radius = { uniform = [\"1 m\", \"2 m\"] }\n\
                     slider.gap = { uniform = [\"1 m\", \"2 m\"] }";
@@ -366,7 +366,7 @@ mod tests {
 
     /// Another seed, other samples; the same seed, the same ones, whatever was asked before.
     #[test]
-    fn exact_samples_follow_from_seed_and_index_alone() {
+    fn samples_follow_from_seed_and_index_alone() {
         let vary = "slider.radius = { uniform = [\"1 m\", \"2 m\"] }";
         for sampling in [SOBOL, LATIN] {
             let (a, b) = (design(vary, sampling).unwrap(), design(vary, sampling).unwrap());
@@ -381,7 +381,7 @@ mod tests {
 
     /// The samples of today, so that those of tomorrow are the same on every machine.
     #[test]
-    fn regress_first_samples() {
+    fn the_first_samples_stay() {
         let vary = "slider.radius = { lognormal = [\"2 m\", 0.5] }";
         let first = |sampling| design(vary, sampling).unwrap().values(1)[0];
         assert_eq!(first(SOBOL).to_bits(), 4_609_994_163_610_663_763);
@@ -389,7 +389,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_truncation_that_leaves_nothing_is_refused() {
+    fn truncation_that_leaves_nothing_is_refused() {
         let vary =
             "slider.radius = { normal = [\"1 m\", \"1 mm\"], truncated = [\"2 m\", \"3 m\"] }";
         let error = design(vary, SOBOL).unwrap_err();

@@ -182,7 +182,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_results_come_in_order_and_every_run_is_told() {
+    fn results_come_in_order_and_every_run_is_told() {
         let told = AtomicU64::new(0);
         let follow = |runs: u64| {
             told.fetch_add(runs, Ordering::Relaxed);
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_follower_stops_it_for_good() {
+    fn the_follower_stops_it_for_good() {
         let told = AtomicU64::new(0);
         let follow = |runs: u64| match told.fetch_add(runs, Ordering::Relaxed) + runs {
             7.. => ControlFlow::Break(()),
@@ -216,7 +216,7 @@ mod tests {
     /// The threads are those of the pool that the caller is in; outside of one there is no other.
     #[cfg(feature = "parallel")]
     #[test]
-    fn exact_threads_are_the_callers() {
+    fn threads_are_the_callers() {
         let threads = || {
             let all = Engine::unwatched().runs(64, |_| std::thread::current().id()).unwrap();
             all.into_iter().collect::<std::collections::HashSet<_>>()

@@ -217,7 +217,7 @@ mod tests {
     /// A block that slides under 0.4 g for half a second and stops under −0.1 g: friction of 0.2 is
     /// asked for half of what it has.
     #[test]
-    fn exact_closest_stop_is_the_share_that_is_left() {
+    fn closest_stop_is_the_share_that_is_left() {
         let g = crate::units::STANDARD_GRAVITY_M_PER_S2;
         let friction = Friction::new(0.2, 0.2).unwrap();
         let model = Model::rigid_block(10.0, friction).unwrap();
@@ -259,7 +259,7 @@ mod tests {
 
     /// A study of few long runs, all on one thread: it ends within the first of them.
     #[test]
-    fn exact_a_study_is_stopped_within_a_run() {
+    fn a_study_is_stopped_within_a_run() {
         use core::ops::ControlFlow;
         use core::sync::atomic::{AtomicU64, Ordering};
 
@@ -284,7 +284,7 @@ mod tests {
     /// Any range of runs gives the rows that the whole study has there, and each row is that of the
     /// run alone, from the model's text and with its history.
     #[test]
-    fn exact_rows_do_not_depend_on_their_neighbours() {
+    fn rows_do_not_depend_on_their_neighbours() {
         let vary = "slider.kinetic_friction = { uniform = [0.02, 0.21] }\n\
                     slider.radius = { uniform = [\"1 m\", \"4 m\"] }";
         let with_tail = format!("{vary}\nanalysis.tail = {{ values = [\"0 s\", \"1.003 s\"] }}");
@@ -335,7 +335,7 @@ mod tests {
 
     /// Both components of a pair take one factor, by which the measure of the pair takes its level.
     #[test]
-    fn exact_pairs_take_one_factor() {
+    fn pairs_take_one_factor() {
         for (measure, level) in [("RotD50(0.5 s)", 12.0), ("RotD100(PGA)", 6.0), ("PGA", 6.0)] {
             let keys = format!("measure = \"{measure}\"\nlevels = [\"1 m/s2\", \"{level} m/s2\"]");
             let study = of_pairs("separate", &keys);
@@ -382,7 +382,7 @@ mod tests {
     /// A pair turned by a right angle moves the table along y as it did along x, and against x as along y;
     /// by half a turn, it slides the other way.
     #[test]
-    fn exact_pairs_are_turned() {
+    fn pairs_are_turned() {
         let vary = "[vary]\n\"motion.rotate\" = { values = [\"0 deg\", \"90 deg\", \"180 deg\"] }\n\
                     [sampling]\nmethod = \"grid\"";
         let plain = of_pairs("together", "scale = [12]");
@@ -410,7 +410,7 @@ mod tests {
 
     /// Nothing but pairs that move the table together is turned.
     #[test]
-    fn exact_records_in_one_direction_are_not_turned() {
+    fn records_in_one_direction_are_not_turned() {
         let plan = Plan::parse(
             "p.toml",
             "model = \"m.toml\"\n[records]\nfiles = \"*x.txt\"\n\
@@ -428,7 +428,7 @@ mod tests {
 
     /// Pairs are brought to a spectrum by one factor each, and levels are factors besides.
     #[test]
-    fn exact_pairs_are_brought_to_a_spectrum() {
+    fn pairs_are_brought_to_a_spectrum() {
         let study = of_pairs(
             "separate",
             "code_spectrum = { sds = \"1 g\", sd1 = \"0.6 g\", tl = \"8 s\" }\n\
@@ -451,7 +451,7 @@ mod tests {
 
     /// Models of more samples than are kept are made anew, and are the same.
     #[test]
-    fn exact_many_samples_are_as_few() {
+    fn many_samples_are_as_few() {
         let vary = "slider.kinetic_friction = { uniform = [0.02, 0.19] }";
         let study = study(vary, 20_000);
         let rows = rows(&study, 19_990..20_003);
@@ -463,7 +463,7 @@ mod tests {
 
     /// The follower stops a study between two pieces of it.
     #[test]
-    fn exact_a_study_is_stopped() {
+    fn a_study_is_stopped() {
         let study = study("slider.kinetic_friction = { uniform = [0.02, 0.19] }", 200);
         let follow = |_| core::ops::ControlFlow::Break(());
         assert_eq!(study.rows(0..study.runs(), &Engine::new(&follow)), Err(Stopped));
@@ -471,7 +471,7 @@ mod tests {
 
     /// One run of every thousand is checked, wherever parts are cut, and at least one of all.
     #[test]
-    fn exact_one_run_of_a_thousand_is_checked() {
+    fn one_run_of_a_thousand_is_checked() {
         for (count, checked) in [(70, 1), (500, 3), (3000, 18)] {
             let study = study("slider.kinetic_friction = { uniform = [0.02, 0.19] }", count);
             let of_block = |block: u64| {

@@ -385,7 +385,7 @@ mod tests {
 
     /// Quantiles, means and largest values against those of the sorted rows in memory.
     #[test]
-    fn exact_summary_is_that_of_the_sorted_values() {
+    fn summary_is_that_of_the_sorted_values() {
         let model = "[block]\nmass = \"10 t\"\n[slider]\nstatic_friction = 0.2\n\
                      kinetic_friction = 0.1\n";
         let text = "model = \"m.toml\"\n[records]\nfiles = \"*.txt\"\nscale = [1, -3]\n[vary]\n\

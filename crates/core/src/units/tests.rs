@@ -8,7 +8,7 @@ fn message(text: &str, dimension: Dimension) -> String {
 
 /// The units' definitions: SI prefixes, the international pound, foot and inch, standard gravity.
 #[test]
-fn exact_definitions_of_units() {
+fn definitions_of_units() {
     use Dimension::*;
     for (text, dimension, si) in [
         ("325 kg", Mass, 325.0),
@@ -53,7 +53,7 @@ fn exact_definitions_of_units() {
 }
 
 #[test]
-fn exact_no_unit_name_stands_twice_and_grams_do_not_exist() {
+fn no_unit_name_stands_twice_and_grams_do_not_exist() {
     let names: Vec<_> = all().map(|(_, unit)| unit.name()).collect();
     let distinct: std::collections::BTreeSet<_> = names.iter().collect();
     assert_eq!(names.len(), distinct.len());
@@ -64,7 +64,7 @@ fn exact_no_unit_name_stands_twice_and_grams_do_not_exist() {
 }
 
 #[test]
-fn exact_messages_say_what_to_write() {
+fn messages_say_what_to_write() {
     let length = Dimension::Length;
     let with_unit = "expected a length with its unit, such as \"150 mm\", found";
     for text in ["150", "", "mm", "1_000 m", "−5 m", "--5 m", "NaN m", "inf m", "5 5 m"] {
@@ -98,7 +98,7 @@ fn exact_messages_say_what_to_write() {
 }
 
 #[test]
-fn exact_table_prints_every_unit() {
+fn table_prints_every_unit() {
     let table = table();
     for (dimension, unit) in all() {
         let line = table.lines().find(|line| line.starts_with(dimension.name())).unwrap();
@@ -108,7 +108,7 @@ fn exact_table_prints_every_unit() {
 }
 
 #[test]
-fn exact_every_example_is_a_quantity_of_its_dimension() {
+fn every_example_is_a_quantity_of_its_dimension() {
     for dimension in Dimension::ALL {
         assert!(parse_quantity(dimension.example(), dimension).is_ok(), "{dimension:?}");
         assert_eq!(dimension.units()[0].to_si(0.1), 0.1, "the first unit of {dimension:?} is SI");

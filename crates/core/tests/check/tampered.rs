@@ -25,7 +25,7 @@ fn all_systems() -> Vec<System> {
 }
 
 #[test]
-fn exact_moved_events_show() {
+fn moved_events_show() {
     for system in all_systems() {
         let history = history_of(&system);
         for k in changes(&history, |a, b| a != b) {
@@ -42,7 +42,7 @@ fn exact_moved_events_show() {
 }
 
 #[test]
-fn exact_changed_friction_shows() {
+fn changed_friction_shows() {
     for system in systems().into_iter().chain(coarse_systems()) {
         let [fixed, kinetic] = [system.model.static_friction(), system.model.kinetic_friction()];
         let more = |pair: [f64; 2]| pair.map(|mu| mu * (1.0 + 1e-6));
@@ -62,7 +62,7 @@ fn exact_changed_friction_shows() {
 
 /// A law of devices with one number off by 1e-6.
 #[test]
-fn exact_changed_device_shows() {
+fn changed_device_shows() {
     for system in device_systems() {
         let history = history_of(&system);
         let must_show = |model: Model, what: &str| {
@@ -112,7 +112,7 @@ fn exact_changed_device_shows() {
 }
 
 #[test]
-fn exact_reversal_left_out_shows() {
+fn reversal_left_out_shows() {
     let mut reversals = 0;
     for system in all_systems() {
         let history = history_of(&system);
@@ -131,7 +131,7 @@ fn exact_reversal_left_out_shows() {
 }
 
 #[test]
-fn exact_stop_turned_into_pass_shows() {
+fn stop_turned_into_pass_shows() {
     for system in all_systems() {
         let history = history_of(&system);
         for k in changes(&history, |a, b| slips(a) && b == Mode::Stick) {
@@ -149,7 +149,7 @@ fn exact_stop_turned_into_pass_shows() {
 }
 
 #[test]
-fn exact_flipped_friction_shows() {
+fn flipped_friction_shows() {
     for system in all_systems() {
         let history = history_of(&system);
         for k in changes(&history, |a, b| a == Mode::Stick && slips(b)) {
@@ -163,7 +163,7 @@ fn exact_flipped_friction_shows() {
 }
 
 #[test]
-fn exact_one_changed_value_shows() {
+fn one_changed_value_shows() {
     for system in all_systems() {
         let history = history_of(&system);
         let columns: [fn(&mut History) -> &mut Vec<f64>; 12] = [
@@ -201,7 +201,7 @@ fn exact_one_changed_value_shows() {
 
 /// A state or a force off by 1e-7 of its peak shows as about that, wherever it stands.
 #[test]
-fn exact_changed_value_shows_in_proportion() {
+fn changed_value_shows_in_proportion() {
     for system in all_systems() {
         let history = history_of(&system);
         let columns: [fn(&mut History) -> &mut Vec<f64>; 3] = [
@@ -265,7 +265,7 @@ fn prop_closest_call_does_not_know_the_samples() {
 
 /// Without a spring the equations do not know where the block stands; its start does.
 #[test]
-fn exact_other_start_shows() {
+fn other_start_shows() {
     let system = systems().swap_remove(0);
     let mut shifted = history_of(&system);
     let shift_m = 1e-7 * peak(&shifted.sliding_displacement_m);
@@ -274,7 +274,7 @@ fn exact_other_start_shows() {
 }
 
 #[test]
-fn exact_damping_left_out_shows() {
+fn damping_left_out_shows() {
     for system in systems() {
         let undamped = with(&system.model, |slider, frame| {
             slider.damper_n_s_per_m = 0.0;
@@ -290,7 +290,7 @@ fn exact_damping_left_out_shows() {
 
 /// A demand above its bound only between two samples shows, and one just below it does not.
 #[test]
-fn exact_excess_between_samples_shows() {
+fn excess_between_samples_shows() {
     for system in coarse_systems().into_iter().skip(1) {
         let model = system.model.with_friction(coulomb([1e3; 2], [1e3; 2]));
         let held = System { model, ..system.clone() };
@@ -311,7 +311,7 @@ fn exact_excess_between_samples_shows() {
 
 /// What cannot be judged is refused, without a panic.
 #[test]
-fn exact_broken_histories_are_refused() {
+fn broken_histories_are_refused() {
     let system = &systems()[2];
     let history = history_of(system);
     let breaks: [fn(&mut History); 8] = [
@@ -357,7 +357,7 @@ fn demands_must_show(system: &System, response: &Response, what: &str) {
 }
 
 #[test]
-fn exact_true_demands_pass() {
+fn true_demands_pass() {
     for system in complete_systems() {
         let c = check(&system.model, &system.motion, &response_of(&system));
         assert!(c.demands_error < 1e-11, "{}: {}", system.name, figures(&c));
@@ -366,7 +366,7 @@ fn exact_true_demands_pass() {
 }
 
 #[test]
-fn exact_every_changed_demand_shows() {
+fn every_changed_demand_shows() {
     type Number = fn(&mut Demands) -> &mut f64;
     let numbers: [Number; 16] = [
         |d| &mut d.peak_sliding_displacement_m,
@@ -438,7 +438,7 @@ fn exact_every_changed_demand_shows() {
 }
 
 #[test]
-fn exact_every_changed_event_shows() {
+fn every_changed_event_shows() {
     for system in complete_systems() {
         let response = response_of(&system);
         let changed = |change: &dyn Fn(&mut Response), what: &str| {

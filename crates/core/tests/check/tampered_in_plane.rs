@@ -74,7 +74,7 @@ fn end_of_mode(h: &History, from: usize) -> usize {
 }
 
 #[test]
-fn exact_one_changed_value_shows_along_either_axis() {
+fn one_changed_value_shows_along_either_axis() {
     type Column = fn(&mut Response) -> &mut Vec<f64>;
     fn along_x(response: &mut Response) -> &mut History {
         response.history.as_mut().unwrap()
@@ -113,7 +113,7 @@ fn exact_one_changed_value_shows_along_either_axis() {
 }
 
 #[test]
-fn exact_moved_events_show() {
+fn moved_events_show() {
     for (system, response) in systems() {
         for k in changes(response.history.as_ref().unwrap(), |_, _| true) {
             for shift_s in [1e-6, -1e-6] {
@@ -131,7 +131,7 @@ fn exact_moved_events_show() {
 }
 
 #[test]
-fn exact_stick_left_out_shows() {
+fn stick_left_out_shows() {
     for (system, response) in systems() {
         let history = response.history.as_ref().unwrap();
         for k in changes(history, |_, after| after == Mode::Stick) {
@@ -145,7 +145,7 @@ fn exact_stick_left_out_shows() {
 }
 
 #[test]
-fn exact_release_astray_shows() {
+fn release_astray_shows() {
     let (sin, cos) = (1e-6, 1.0);
     for (system, response) in systems() {
         let history = response.history.as_ref().unwrap();
@@ -203,7 +203,7 @@ fn faded(model: &Model, part: f64) -> Vec<Friction> {
 }
 
 #[test]
-fn exact_changed_model_shows() {
+fn changed_model_shows() {
     for (system, response) in systems() {
         let must_show = |model: Model, what: &str| {
             let other = System { model, ..system.clone() };
@@ -254,7 +254,7 @@ fn exact_changed_model_shows() {
 }
 
 #[test]
-fn exact_changed_demand_shows() {
+fn changed_demand_shows() {
     type Number = fn(&mut Demands) -> Option<&mut f64>;
     let numbers: [Number; 20] = [
         |d| Some(&mut d.peak_sliding_displacement_m),
@@ -322,7 +322,7 @@ fn exact_changed_demand_shows() {
 
 /// What is not finite or not there is not judged.
 #[test]
-fn exact_broken_histories_get_infinite_figures() {
+fn broken_histories_get_infinite_figures() {
     for (system, response) in systems().into_iter().take(1) {
         let broken: [fn(&mut Response); 4] = [
             |r| along_y(r).sliding_velocity_m_per_s[3] = f64::NAN,

@@ -12,7 +12,7 @@ use slipstick::solver::exact;
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2 as G;
 
 #[test]
-fn exact_true_histories_pass() {
+fn true_histories_pass() {
     for system in systems().into_iter().chain(coarse_systems()) {
         let response = response_of(&system);
         let history = response.history.as_ref().unwrap();
@@ -27,7 +27,7 @@ fn exact_true_histories_pass() {
 
 /// A release too early or too late, the motion after it correct: only the law can tell.
 #[test]
-fn exact_delayed_release_shows() {
+fn delayed_release_shows() {
     // a = j t: the block slips from t_r on, s̈ = μ_k g − j t.
     let (mu, kinetic, j, m) = (0.1, 0.08, 2.0, 124.0);
     let system = System {
@@ -97,7 +97,7 @@ fn newmark(pass: bool) -> (System, History) {
 }
 
 #[test]
-fn exact_newmark_block_passes() {
+fn newmark_block_passes() {
     let (system, history) = newmark(false);
     let c = judge(&system, &history);
     assert!(worst(&c) < 1e-15, "{}", figures(&c));
@@ -114,7 +114,7 @@ fn exact_newmark_block_passes() {
 
 /// Consistent but for the sign of the velocity: the friction law alone tells.
 #[test]
-fn exact_lost_stop_shows() {
+fn lost_stop_shows() {
     let (system, history) = newmark(true);
     let c = judge(&system, &history);
     assert!(c.equilibrium_residual < 1e-15, "{}", figures(&c));
@@ -123,7 +123,7 @@ fn exact_lost_stop_shows() {
 
 /// Den Hartog: half cycles of a block on a spring lose 2 μ M g / K1 each, then it sticks.
 #[test]
-fn exact_free_vibration_with_friction_passes() {
+fn free_vibration_with_friction_passes() {
     let (mu, m, k) = (0.1, 248.0, 19_400.0);
     let omega = libm::sqrt(k / m);
     let (half_s, shift) = (core::f64::consts::PI / omega, mu * m * G / k);
@@ -158,7 +158,7 @@ fn exact_free_vibration_with_friction_passes() {
 
 /// A block that never slides: the oscillator on a ramp, y = −(j/ω²)(t − sin ωt/ω).
 #[test]
-fn exact_oscillator_on_ramp_passes() {
+fn oscillator_on_ramp_passes() {
     let (j, m, omega, end_s) = (0.3, 201.0, 7.07, 3.0);
     let k = m * omega * omega;
     let frame = frame(&[m], &[k], Damping::Ratio(0.0));
@@ -190,7 +190,7 @@ fn exact_oscillator_on_ramp_passes() {
 
 /// Without friction the oscillator vibrates at ω √(1 + M2/M1) on the free block.
 #[test]
-fn exact_free_free_vibration_passes() {
+fn free_free_vibration_passes() {
     let (block_kg, m, omega, y0) = (325.0, 201.0, 7.07, 0.02);
     let free = omega * libm::sqrt(1.0 + m / block_kg);
     let initial = InitialState { storey_displacement_m: Some(vec![y0]), ..InitialState::rest() };
@@ -227,7 +227,7 @@ fn exact_free_free_vibration_passes() {
 
 /// A history without its samples, events alone, is integrated piece by piece of the motion.
 #[test]
-fn exact_events_alone_pass() {
+fn events_alone_pass() {
     for system in systems().into_iter().chain(coarse_systems()) {
         let full = history_of(&system);
         let abreast = |k: usize| {
@@ -258,7 +258,7 @@ fn exact_events_alone_pass() {
 
 /// A damping ratio without storeys damps nothing.
 #[test]
-fn regress_damping_ratio_of_no_storeys() {
+fn damping_ratio_of_no_storeys() {
     let System { model, motion, .. } = systems().swap_remove(0);
     let model = with(&model, |_, frame| frame.damping = Damping::Ratio(0.05));
     let system = System { name: "rigid with a damping ratio", model, motion };
@@ -268,7 +268,7 @@ fn regress_damping_ratio_of_no_storeys() {
 
 /// A motion of zero leaves nothing to decide and nothing to divide by.
 #[test]
-fn exact_rest_has_zero_figures() {
+fn rest_has_zero_figures() {
     let motion = GroundMotion::evenly_spaced(0.1, vec![0.0; 11], None).unwrap();
     let System { model, .. } = systems().swap_remove(2);
     let system = System { name: "at rest", model, motion };
@@ -279,7 +279,7 @@ fn exact_rest_has_zero_figures() {
 
 /// A slip as short as the rounding of its time is no defect: the demand only touches its bound.
 #[test]
-fn exact_touch_by_rounding_passes() {
+fn touch_by_rounding_passes() {
     let acceleration = |i: u32| 2.0 * libm::sin(3.0 * core::f64::consts::PI * 0.005 * f64::from(i));
     let values: Vec<f64> = (0..=8000).map(acceleration).collect();
     let mu = peak(&values) / G;
@@ -298,7 +298,7 @@ fn exact_touch_by_rounding_passes() {
 
 /// A frame at rest on a slope is in equilibrium to rounding, and its friction is the closest call.
 #[test]
-fn exact_rest_on_slope_passes() {
+fn rest_on_slope_passes() {
     let motion = GroundMotion::evenly_spaced(0.1, vec![0.0; 11], None).unwrap();
     let System { model, .. } = systems().swap_remove(5);
     let model = with(&model, |slider, _| slider.tilt_rad = 0.01);
@@ -311,7 +311,7 @@ fn exact_rest_on_slope_passes() {
 
 /// An oscillator swings as A sin ωt on a block that holds: its demand peaks between two knots.
 #[test]
-fn exact_demand_between_knots_counts() {
+fn demand_between_knots_counts() {
     let (block_kg, m, omega, amplitude) = (325.0, 201.0, 7.07, 0.01);
     let k = m * omega * omega;
     let held = |bound: f64| {
@@ -352,7 +352,7 @@ fn exact_demand_between_knots_counts() {
 /// A block slows down to almost nothing, or a little beyond, and gains speed again between two
 /// knots: s̈ = −c (1 − 2 t/T), so ṡ = v − c t + c t²/T with its least value v − c T/4.
 #[test]
-fn exact_dip_of_velocity_between_knots_counts() {
+fn dip_of_velocity_between_knots_counts() {
     let (fixed, kinetic, c, end_s, m) = (0.12, 0.1, 2.0, 0.7, 124.0);
     let friction = coulomb([fixed; 2], [kinetic; 2]);
     let dips = |least: f64| {
@@ -503,7 +503,7 @@ fn struck() -> (System, Response) {
 }
 
 #[test]
-fn exact_elastic_stop_passes() {
+fn elastic_stop_passes() {
     let (system, response) = struck();
     // The reference to 16 digits: contact, turn, leave, rest.
     let reference = [
@@ -520,7 +520,7 @@ fn exact_elastic_stop_passes() {
 }
 
 #[test]
-fn exact_wrong_stops_show() {
+fn wrong_stops_show() {
     let (system, response) = struck();
     let must_show = |model: &Model, change: &dyn Fn(&mut Response), what: &str| {
         let mut tampered = response.clone();
@@ -583,7 +583,7 @@ fn certified(name: &'static str, model: Model, samples: &[[f64; 3]]) {
 
 /// Nothing moves on a slider with any device: 0/0 is 0.
 #[test]
-fn exact_rest_with_devices_passes() {
+fn rest_with_devices_passes() {
     for System { name, model, .. } in device_systems() {
         certified(name, model, &[[0.0; 3], [1.0, 0.0, 0.0]]);
     }
@@ -591,7 +591,7 @@ fn exact_rest_with_devices_passes() {
 
 /// Released beyond the gap of an elastic stop at rest: its strain is all the energy there is.
 #[test]
-fn exact_release_from_elastic_stop_passes() {
+fn release_from_elastic_stop_passes() {
     for (damper_n_s_per_m, mass_kg) in [(0.0, 100.0), (300.0, 100.0), (1e5, 0.1)] {
         let stop = Stop::elastic([Some(0.1); 2], 1e5, damper_n_s_per_m);
         let slider = Slider { ends: stop.into(), ..slider(coulomb([0.1; 2], [0.1; 2])) };
@@ -604,7 +604,7 @@ fn exact_release_from_elastic_stop_passes() {
 /// Motions so small that friction gives way only within the rounding of the time at which contact is
 /// lost: there the normal force is rounding, and 0 from there on.
 #[test]
-fn exact_tiny_motion_without_contact_passes() {
+fn tiny_motion_without_contact_passes() {
     let wave = |k: i32, rate: f64| libm::sin(rate * f64::from(k));
     for peak in [1e-14, 1e-7] {
         let sample = |k: i32| [f64::from(k) / 64.0, peak * wave(k, 0.21), 15.0 * wave(k, 1.7)];
@@ -628,7 +628,7 @@ fn exact_tiny_motion_without_contact_passes() {
 
 /// A ramp so steep that the rounding of the time of a release within it moves the demand there.
 #[test]
-fn exact_steep_ramp_passes() {
+fn steep_ramp_passes() {
     let samples = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0 + 1e-9, 3.0, 0.0], [2.0, 3.0, 0.0]];
     for mu in [0.031, 0.17, 0.293] {
         let block = Model::rigid_block(2.0, coulomb([1.2 * mu; 2], [mu; 2])).unwrap();
@@ -639,7 +639,7 @@ fn exact_steep_ramp_passes() {
 
 /// A jump that goes beyond what friction holds and comes back lets go on its way.
 #[test]
-fn exact_release_within_a_jump_passes() {
+fn release_within_a_jump_passes() {
     let samples = [[0.0, -3.0, 0.0], [0.0, -1.0, 0.0], [1.0, 2.0, 0.0], [2.0, 0.0, 0.0]];
     let firm = Model::rigid_block(2.0, coulomb([0.9; 2], [0.9; 2])).unwrap();
     certified("a jump and back under contents", carrying(firm, 0.2), &samples);
@@ -647,7 +647,7 @@ fn exact_release_within_a_jump_passes() {
 
 /// Block and contents reach their bounds together; either alone would have held the other back.
 #[test]
-fn exact_which_lets_go_first_is_a_close_call() {
+fn which_lets_go_first_is_a_close_call() {
     let contents =
         vec![Contents { floor: 0, mass_kg: 1.0, static_friction: 0.2, kinetic_friction: 0.15 }];
     let block = Model::rigid_block(2.0, coulomb([0.2; 2], [0.15; 2])).unwrap();
@@ -676,7 +676,7 @@ fn carrying(model: Model, friction: f64) -> Model {
 
 /// Contents that nearly let go, nearly stay, and nearly come to a halt in a slip: the closest call is theirs.
 #[test]
-fn exact_close_decisions_of_contents_count() {
+fn close_decisions_of_contents_count() {
     let [fixed, kinetic] = [0.2, 0.15];
     let carrier = Model::rigid_block(2.0, coulomb([1.0; 2], [0.9; 2])).unwrap();
     let contents = vec![Contents {

@@ -200,7 +200,7 @@ fn drift(case: &Case, solve: Solve, n: usize) -> Numbers {
     ])
 }
 
-/// C2: a formula; `exact_critical_ratio_separates_stops_from_none` shows it in responses.
+/// C2: a formula; `closed_form_critical_ratio_separates_stops_from_none` shows it in responses.
 fn critical(case: &Case) -> Numbers {
     let critical = 1.0 / (1.0 + 0.25 * PI * PI).sqrt();
     let names = case.list("expect").iter().map(|e| text_of(&e["q"]));

@@ -10,7 +10,7 @@ use super::{NOTHING, ROWS, bytes, folder, given, kinds, samples};
 /// A header that is changed is refused, or what was read is not as if it had not been.
 #[test]
 #[rustfmt::skip]
-fn exact_changed_headers_are_noticed() {
+fn changed_headers_are_noticed() {
     let mut wrong = Vec::new();
     for (file, from, to, expected) in [
         ("knet.EW", "3920(gal)", "3920(cal)", "a scale factor such as 3920(gal)/6182761"),
@@ -70,7 +70,7 @@ fn exact_changed_headers_are_noticed() {
 /// A second count in a header that is not the number of values is said: integers of Caltech's volumes and
 /// of COSMOS, lines above the count of PEER.
 #[test]
-fn exact_second_counts_are_compared() {
+fn second_counts_are_compared() {
     let integers = |text: &str, row: usize, place: usize, stated: &str| -> String {
         let full = |line: &str| {
             line.len() > 60 && line.bytes().all(|b| b.is_ascii_digit() || b.is_ascii_whitespace())
@@ -132,7 +132,7 @@ fn exact_second_counts_are_compared() {
 
 /// A file that ends with a whole block and lacks the ones after it says that it may be cut.
 #[test]
-fn exact_files_cut_at_the_end_of_a_channel_say_so() {
+fn files_cut_at_the_end_of_a_channel_say_so() {
     let truncated = |file: &str, text: &str| {
         let record = record::read(file, text.as_bytes(), &NOTHING).unwrap();
         let all = record.channels.iter().flat_map(kinds).collect::<Vec<_>>();
@@ -145,7 +145,7 @@ fn exact_files_cut_at_the_end_of_a_channel_say_so() {
         let end = usc[..at].rfind('\n').unwrap() + 1;
         assert_eq!(truncated("usc.s0a", &usc[..end]), (left, 1), "{block}");
     }
-    let Some(folder) = folder("exact_files_cut_at_the_end_of_a_channel_say_so") else { return };
+    let Some(folder) = folder("files_cut_at_the_end_of_a_channel_say_so") else { return };
     let file = "geonet/20180212_211557_WPWS_20.V2A";
     let geonet = String::from_utf8(bytes(&folder, file)).unwrap();
     assert_eq!(truncated(file, &geonet), (9, 0));
@@ -158,7 +158,7 @@ fn exact_files_cut_at_the_end_of_a_channel_say_so() {
 
 /// A header of SAC that promises more or fewer values than there are, or other steps.
 #[test]
-fn exact_changed_sac_headers_are_noticed() {
+fn changed_sac_headers_are_noticed() {
     let plain = bytes(&samples(), "little.sac");
     let changed = |at: usize, word: [u8; 4]| {
         let mut bytes = plain.clone();
@@ -185,7 +185,7 @@ fn exact_changed_sac_headers_are_noticed() {
 
 /// A header without its lines of text, and bytes that are no text where units are stated.
 #[test]
-fn regress_headers_of_numbers_and_of_no_text() {
+fn headers_of_numbers_and_of_no_text() {
     let volume = bytes(&samples(), "bhrc.V1");
     let full = |line: &&[u8]| {
         line.len() > 60 && line.iter().all(|b| b.is_ascii_digit() || b.is_ascii_whitespace())

@@ -54,7 +54,7 @@ const SAMPLES: [Sample; 33] = [
 ];
 
 #[test]
-fn exact_every_sample_is_the_same_motion() {
+fn every_sample_is_the_same_motion() {
     for (file, units, understood, name, share, last_digit) in SAMPLES {
         let options = units.map_or(NOTHING, given);
         let record = read(&samples(), file, &options);
@@ -75,7 +75,7 @@ fn exact_every_sample_is_the_same_motion() {
 
 /// Counts with their mean taken off, one count being 6.3e-6 m/s².
 #[test]
-fn exact_knet_samples() {
+fn knet_samples() {
     let mean = motion_g().iter().sum::<f64>() / 24.0;
     for (file, layout, name, azimuth, share) in
         [("knet.EW", "K-NET", "E-W", Some(90.0), 1.0), ("kiknet.UD2", "KiK-net", "UD2", None, -0.5)]
@@ -96,7 +96,7 @@ fn exact_knet_samples() {
 }
 
 #[test]
-fn exact_what_the_samples_say_beside_their_values() {
+fn what_the_samples_say_beside_their_values() {
     let record = read(&samples(), "esm.ASC", &NOTHING);
     let channel = &record.channels[0];
     assert_eq!(channel.event.as_deref(), Some("NOWHERE 20000101 Mw5.0"));

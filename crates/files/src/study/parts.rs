@@ -229,7 +229,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_names_of_parts_and_leftovers() {
+    fn names_of_parts_and_leftovers() {
         assert_eq!(part_of_name("part-00012.parquet"), Some(12));
         assert_eq!(part_of_name("part-x.parquet"), None);
         let part = ".part-00012.parquet.4711-3.tmp";

@@ -267,7 +267,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_shards_cover_all_parts_once() {
+    fn shards_cover_all_parts_once() {
         for (parts, shards) in [(128, 1), (128, 3), (5, 100), (1, 1), (1, 7)] {
             let mut next = 0;
             for index in 1..=shards {
@@ -281,7 +281,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_parts_cover_all_runs_once() {
+    fn parts_cover_all_runs_once() {
         for runs in [1, 499, 500, 501, 64_000, 64_001, 880_000, 100_000_000] {
             let mut next = 0;
             for part in 0..part_count(runs) {

@@ -167,7 +167,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_minus_signs() {
+    fn minus_signs() {
         assert_eq!(
             typeset_minus("-1.5 to (-2) mm, one-way 1e-5, F-16"),
             "−1.5 to (−2) mm, one-way 1e−5, F-16"
@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_lines_are_filled() {
+    fn lines_are_filled() {
         let mut doc = Doc::default();
         doc.paragraph(&"word ".repeat(40));
         assert!(doc.finish().0.lines().all(|line| line.chars().count() <= 100));

@@ -40,7 +40,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_keys_have_titles_and_quantities() {
+    fn keys_have_titles_and_quantities() {
         assert_eq!(title("peak_sliding_displacement_m"), "Peak sliding displacement");
         assert_eq!(title("storey2_peak_acceleration_m_per_s2"), "Storey 2 peak acceleration");
         assert_eq!(title("gap_ratio"), "Gap ratio");

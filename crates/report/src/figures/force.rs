@@ -239,7 +239,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_vertical_motion_at_knots_takes_both_sides_of_a_jump() {
+    fn vertical_motion_at_knots_takes_both_sides_of_a_jump() {
         let vertical = vec![1.0, 3.0, -1.0, 0.0];
         let motion =
             GroundMotion::new(vec![0.0, 1.0, 1.0, 2.0], vec![0.0; 4], Some(vertical.clone()))

@@ -79,7 +79,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_peak_between_knots_is_put_where_the_parabola_turns() {
+    fn a_peak_between_knots_is_put_where_the_parabola_turns() {
         // 4 − (t − 1.25)², sampled at 0, 1, 2.
         let points = [0.0, 1.0, 2.0].map(|t: f64| [t, 4.0 - (t - 1.25) * (t - 1.25)]).to_vec();
         let trace = Trace::with_peak(points, 4.0);
@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_signs_and_edges() {
+    fn signs_and_edges() {
         let down = Trace::with_peak(vec![[0.0, 1.0], [1.0, -2.0]], 2.5);
         assert_eq!(down.peak, Some([1.0, -2.5]));
         let known = Trace::with_peak(vec![[0.0, 1.0], [1.0, -2.0]], 2.0);

@@ -97,7 +97,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_groups_repeat_the_names() {
+    fn groups_repeat_the_names() {
         let row = |text: &str| text.split(' ').map(str::to_owned).collect::<Vec<String>>();
         let groups = in_groups(&[row("n a b c d"), row("m 1 2 3 4")], 3);
         assert_eq!(groups[0], [row("n a b"), row("m 1 2")]);
@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_columns_and_sentences() {
+    fn columns_and_sentences() {
         let rows = [vec!["a".to_owned(), "10".to_owned()], vec!["bcd".to_owned(), "1".to_owned()]];
         assert_eq!(aligned(&rows), "a    10\nbcd   1\n");
         assert_eq!(field("Name", "a b"), "Name     a b\n");

@@ -87,7 +87,7 @@ mod tests {
 
     /// Of a plane the lines are straight, and each runs from edge to edge.
     #[test]
-    fn exact_lines_of_a_plane() {
+    fn lines_of_a_plane() {
         let x: Vec<f64> = (0..7).map(f64::from).collect();
         let y: Vec<f64> = (0..5).map(|j| 0.5 * f64::from(j)).collect();
         let values: Vec<f64> =
@@ -103,7 +103,7 @@ mod tests {
 
     /// Around a hill a line closes; where values are missing there is none.
     #[test]
-    fn exact_lines_around_a_hill_close() {
+    fn lines_around_a_hill_close() {
         let x: Vec<f64> = (0..21).map(|i| f64::from(i) - 10.0).collect();
         let hill = |x: &f64, y: &f64| 100.0 - x * x - y * y;
         let values: Vec<f64> = x.iter().flat_map(|a| x.iter().map(move |b| hill(a, b))).collect();
@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_levels_are_round() {
+    fn levels_are_round() {
         assert_eq!(levels(0.0, 10.0, 4), [2.0, 4.0, 6.0, 8.0]);
         assert_eq!(levels(113.0, 208.0, 6), [120.0, 140.0, 160.0, 180.0, 200.0]);
         assert!(levels(1.0, 1.0, 6).is_empty());

@@ -123,7 +123,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_history_keeps_first_lowest_highest_last_of_each_column() {
+    fn a_history_keeps_first_lowest_highest_last_of_each_column() {
         let y = [0.0, 5.0, -3.0, 1.0, 2.0, 2.0];
         let kept = history(&y, |i| if i < 4 { 0 } else { 1 });
         assert_eq!(kept, [0, 1, 2, 3, 4, 5]);
@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_loop_run_ten_times_is_drawn_once() {
+    fn a_loop_run_ten_times_is_drawn_once() {
         let square = [[0.0, 0.0], [10.0, 0.0], [10.0, 5.0], [10.0, 10.0], [0.0, 10.0]];
         let once: Vec<[f64; 2]> = square.into_iter().chain([[0.0, 0.0]]).collect();
         let many: Vec<[f64; 2]> = once.iter().cycle().take(60).copied().collect();
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_extremes_of_a_curve_stay_off_the_grid() {
+    fn extremes_of_a_curve_stay_off_the_grid() {
         let points = [[0.0, 0.0], [1.13, 0.4], [0.6, 7.77], [0.0, -1.01]];
         let drawn: Vec<[i64; 2]> = curve(&points).concat();
         assert!(drawn.iter().any(|p| p[0] == 113));

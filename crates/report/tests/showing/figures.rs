@@ -105,7 +105,7 @@ fn coarse() -> Case {
 }
 
 #[test]
-fn exact_drawn_peaks_are_the_tabled_peaks() {
+fn drawn_peaks_are_the_tabled_peaks() {
     for case in [coarse(), run("fine", frame_model(2, 1.0), rough_motion(60.0, 0.005))] {
         let all = figures::all(&report(&case, &case.summary));
         let d = &case.summary.demands;
@@ -126,7 +126,7 @@ fn exact_drawn_peaks_are_the_tabled_peaks() {
 
 /// Without the peaks of the continuous motion the coarse record would be drawn too low.
 #[test]
-fn exact_a_peak_between_samples_is_drawn() {
+fn a_peak_between_samples_is_drawn() {
     let mut case = coarse();
     case.summary.demands.storeys[0].peak_drift_m *= 1.2;
     let all = figures::all(&report(&case, &case.summary));
@@ -179,7 +179,7 @@ fn assert_sound(drawn: &Drawn) {
 }
 
 #[test]
-fn exact_units_stand_on_both_axes() {
+fn units_stand_on_both_axes() {
     let case = run("m", frame_model(1, 1.0), rough_motion(12.0, 0.02));
     let mut report = report(&case, &case.summary);
     report.display = DisplayUnits::Us;
@@ -201,7 +201,7 @@ fn exact_units_stand_on_both_axes() {
 
 /// A data sheet draws force rising with displacement: the slope of the loop is that of the spring.
 #[test]
-fn exact_the_hysteresis_loop_rises() {
+fn the_hysteresis_loop_rises() {
     let case = run("m", frame_model(2, 1.0), rough_motion(12.0, 0.02));
     let all = figures::all(&report(&case, &case.summary));
     let svg = figure(&all, "hysteresis");
@@ -217,7 +217,7 @@ fn exact_the_hysteresis_loop_rises() {
 }
 
 #[test]
-fn exact_a_drawing_does_not_grow_with_the_record() {
+fn a_drawing_does_not_grow_with_the_record() {
     let svgs = |dt_s: f64| {
         let case = run("m", frame_model(1, 1.0), rough_motion(30.0, dt_s));
         figures::all(&report(&case, &case.summary))
@@ -229,7 +229,7 @@ fn exact_a_drawing_does_not_grow_with_the_record() {
 }
 
 #[test]
-fn exact_still_ground_and_empty_histories_are_drawn_without_fault() {
+fn still_ground_and_empty_histories_are_drawn_without_fault() {
     let still = GroundMotion::evenly_spaced(0.01, vec![0.0; 20], None).expect("a motion");
     let mut case = run("still", frame_model(1, 1.0), still);
     for drawn in figures::all(&report(&case, &case.summary)) {
@@ -244,7 +244,7 @@ fn exact_still_ground_and_empty_histories_are_drawn_without_fault() {
 }
 
 #[test]
-fn exact_bounds_of_friction_follow_the_vertical_motion() {
+fn bounds_of_friction_follow_the_vertical_motion() {
     let level = rough_motion(12.0, 0.02);
     let up = level.times_s().iter().map(|t| 3.0 * (9.0 * t).sin()).collect();
     let horizontal = level.horizontal_m_per_s2().to_vec();
@@ -259,7 +259,7 @@ fn exact_bounds_of_friction_follow_the_vertical_motion() {
 }
 
 #[test]
-fn exact_the_loop_is_red_only_where_a_stop_is_pressed() {
+fn the_loop_is_red_only_where_a_stop_is_pressed() {
     let elastic = |gap_m| Stop::elastic([Some(gap_m); 2], 2e5, 0.0);
     let rigid = Stop::rigid([Some(0.005); 2], 0.4);
     for (stop, is_red) in [(elastic(0.005), true), (elastic(10.0), false), (rigid, false)] {
@@ -282,7 +282,7 @@ fn exact_the_loop_is_red_only_where_a_stop_is_pressed() {
 }
 
 #[test]
-fn exact_a_stiff_stop_does_not_flatten_the_loop() {
+fn a_stiff_stop_does_not_flatten_the_loop() {
     for (stiffness_n_per_m, leaves) in [(2e8, true), (2e4, false)] {
         let plain = frame_model(0, 1.0);
         let stop = Stop::elastic([Some(0.005); 2], stiffness_n_per_m, 0.0);

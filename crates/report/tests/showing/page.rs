@@ -26,7 +26,7 @@ fn assert_balanced(html: &str) {
 }
 
 #[test]
-fn exact_what_users_type_is_never_markup() {
+fn what_users_type_is_never_markup() {
     let bad = "<script>alert(1)</script>\"'><img src=x onerror=y> </style> @import \\2f & \u{202e}";
     let mut case = run(bad, frame_model(1, 1.0), rough_motion(5.0, 0.02));
     case.response.warnings.clear();
@@ -51,7 +51,7 @@ fn exact_what_users_type_is_never_markup() {
 const BAD: &str = "<script>\"</pre>";
 
 #[test]
-fn exact_the_page_needs_nothing_else() {
+fn the_page_needs_nothing_else() {
     let case = run("mock-up", frame_model(2, 1.0), rough_motion(10.0, 0.01));
     let html = report(&case, &case.summary).to_html();
     let without_namespace = html.replace("http://www.w3.org/2000/svg", "");
@@ -70,7 +70,7 @@ fn exact_the_page_needs_nothing_else() {
 }
 
 #[test]
-fn exact_answers_come_first_and_inputs_last() {
+fn answers_come_first_and_inputs_last() {
     let nominal = run("mock-up", frame_model(1, 1.0), rough_motion(10.0, 0.01));
     let bound = |f| run_times("mock-up", frame_model(1, f), rough_motion(10.0, 0.01), f);
     let (lower, upper) = (bound(0.8), bound(1.3));
@@ -114,7 +114,7 @@ fn exact_answers_come_first_and_inputs_last() {
 
 /// The words of the verdict agree with the figures of the run that governs.
 #[test]
-fn exact_the_verdict_names_gap_time_and_governing_friction() {
+fn the_verdict_names_gap_time_and_governing_friction() {
     let nominal = run("mock-up", frame_model(1, 1.0), rough_motion(10.0, 0.01));
     let bound = |f| run_times("mock-up", frame_model(1, f), rough_motion(10.0, 0.01), f).summary;
     let summary = nominal.summary.clone().with_bounds(bound(0.8), bound(1.3));
@@ -138,7 +138,7 @@ fn exact_the_verdict_names_gap_time_and_governing_friction() {
 }
 
 #[test]
-fn exact_many_events_are_cut_and_counted() {
+fn many_events_are_cut_and_counted() {
     let mut case = run("mock-up", frame_model(0, 1.0), rough_motion(5.0, 0.01));
     case.response.events = (0..1234)
         .map(|i| Event {
@@ -157,7 +157,7 @@ fn exact_many_events_are_cut_and_counted() {
 }
 
 #[test]
-fn exact_the_largest_page_stays_below_two_megabytes() {
+fn the_largest_page_stays_below_two_megabytes() {
     let nominal = run("tower", frame_model(20, 1.0), rough_motion(60.0, 0.005));
     let again = || nominal.summary.clone();
     let summary = again().with_bounds(again(), again());
@@ -170,7 +170,7 @@ fn exact_the_largest_page_stays_below_two_megabytes() {
 }
 
 #[test]
-fn exact_a_failed_check_is_said_loudly() {
+fn a_failed_check_is_said_loudly() {
     let mut case = run("mock-up", frame_model(1, 1.0), rough_motion(5.0, 0.01));
     case.certificate.friction_excess = 1e-6;
     let (model, motion) = (&case.model, &case.motion);

@@ -51,7 +51,7 @@ fn assert_promise(object: &Value) {
 }
 
 #[test]
-fn exact_every_promised_key_is_there_in_all_three_runs() {
+fn every_promised_key_is_there_in_all_three_runs() {
     let nominal = case();
     let bound = |factor| {
         run_times("mock-up", frame_model(2, factor), rough_motion(10.0, 0.01), factor).summary
@@ -74,7 +74,7 @@ fn exact_every_promised_key_is_there_in_all_three_runs() {
 }
 
 #[test]
-fn exact_the_keys_stand_in_the_promised_order() {
+fn the_keys_stand_in_the_promised_order() {
     let text = case().summary.to_json();
     let mut from = 0;
     for entry in PROMISED.split(',').filter(|entry| !entry.contains('.')) {
@@ -84,7 +84,7 @@ fn exact_the_keys_stand_in_the_promised_order() {
 }
 
 #[test]
-fn exact_numbers_that_are_not_finite_are_null() {
+fn numbers_that_are_not_finite_are_null() {
     let mut summary = case().summary;
     summary.demands.peak_base_shear_n = f64::NAN;
     summary.demands.gap_ratio = Some(f64::INFINITY);
@@ -96,7 +96,7 @@ fn exact_numbers_that_are_not_finite_are_null() {
 }
 
 #[test]
-fn exact_a_stepwise_run_reports_iterations_and_is_never_judged() {
+fn a_stepwise_run_reports_iterations_and_is_never_judged() {
     let mut case = case();
     case.response.method = Method::Stepwise;
     case.response.iterations = Some(Iterations { mean: 3.25, max: 9 });
@@ -120,7 +120,7 @@ fn kinds(warnings: &[Notice]) -> Vec<&'static str> {
 }
 
 #[test]
-fn exact_warnings_come_from_figures_solver_and_record() {
+fn warnings_come_from_figures_solver_and_record() {
     let mut case = case();
     assert_eq!(kinds(&case.summary.warnings), ["gap_exceeded"]);
 
@@ -145,7 +145,7 @@ fn exact_warnings_come_from_figures_solver_and_record() {
 }
 
 #[test]
-fn exact_the_gap_is_passed_at_the_first_knot_beyond_it() {
+fn the_gap_is_passed_at_the_first_knot_beyond_it() {
     let case = case();
     let history = case.response.history.as_ref().expect("a history");
     let warning = &case.summary.warnings[0];
@@ -159,7 +159,7 @@ fn exact_the_gap_is_passed_at_the_first_knot_beyond_it() {
 }
 
 #[test]
-fn exact_warnings_of_the_bounds_are_told_apart() {
+fn warnings_of_the_bounds_are_told_apart() {
     let nominal = case();
     let mut lower = nominal.summary.clone();
     let own = Notice::new(NoticeKind::ContactLost, "lifted").at(1.0);

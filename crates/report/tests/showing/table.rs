@@ -5,7 +5,7 @@ use slipstick_report::DisplayUnits;
 use slipstick_report::table::table;
 
 #[test]
-fn exact_columns_are_aligned_and_lines_fit() {
+fn columns_are_aligned_and_lines_fit() {
     let nominal = run("mock-up", frame_model(2, 1.0), rough_motion(10.0, 0.01));
     let bound = |factor| {
         run_times("mock-up", frame_model(2, factor), rough_motion(10.0, 0.01), factor).summary
@@ -32,7 +32,7 @@ fn exact_columns_are_aligned_and_lines_fit() {
 }
 
 #[test]
-fn exact_one_run_has_one_column_and_its_units() {
+fn one_run_has_one_column_and_its_units() {
     let case = run("mock-up", frame_model(1, 1.0), rough_motion(10.0, 0.01));
     let text = table(&case.summary, &case.model, "a record", DisplayUnits::Us);
     assert!(!text.contains("nominal") && !text.contains('*'));
@@ -45,7 +45,7 @@ fn exact_one_run_has_one_column_and_its_units() {
 }
 
 #[test]
-fn exact_names_cannot_drive_a_terminal() {
+fn names_cannot_drive_a_terminal() {
     let case = run("evil \u{1b}[2J\nname", frame_model(0, 1.0), rough_motion(2.0, 0.01));
     let text = table(&case.summary, &case.model, "record \u{7}", DisplayUnits::Si);
     assert!(text.chars().all(|c| c == '\n' || !c.is_control()));

@@ -71,7 +71,7 @@ fn run(side: usize) -> impl FnMut(&[(usize, usize)]) -> Result<Vec<Demand>, FitE
 }
 
 #[test]
-fn exact_search_equals_the_full_grid_of_200_by_200() {
+fn search_equals_the_full_grid_of_200_by_200() {
     let target = Target { gap_m: 0.32, probability: 0.9, acceleration_share: 0.5 };
     let (designs, records) = (40_000, 21);
     let found = search(&target, designs, records, run(200)).unwrap();
@@ -136,7 +136,7 @@ fn prop_search_equals_the_full_grid_for_any_target() {
 }
 
 #[test]
-fn exact_failed_runs_are_beyond_everything() {
+fn failed_runs_are_beyond_everything() {
     let target = Target { gap_m: 1.0, probability: 0.5, acceleration_share: 0.5 };
     let failed = Demand { displacement_m: f64::NAN, acceleration_m_per_s2: f64::NAN };
     let fine = Demand { displacement_m: 0.5, acceleration_m_per_s2: 2.0 };
@@ -171,7 +171,7 @@ fn lattice(n: usize, dimensions: usize) -> Vec<Vec<f64>> {
 
 /// T. Ishigami and T. Homma's function (1990), whose indices are known in closed form.
 #[test]
-fn exact_indices_of_ishigami() {
+fn indices_of_ishigami() {
     let (a, b, pi) = (7.0, 0.1, core::f64::consts::PI);
     let rows = design(&lattice(16_381, 6), 3).unwrap();
     assert_eq!(rows.len(), 16_381 * 5);
@@ -200,7 +200,7 @@ fn exact_indices_of_ishigami() {
 }
 
 #[test]
-fn exact_indices_refuse_what_tells_nothing() {
+fn indices_refuse_what_tells_nothing() {
     assert!(design(&lattice(7, 4), 2).is_err());
     assert!(design(&lattice(11, 3), 2).is_err());
     assert!(indices(&[1.0; 40], 2, 0.9).is_err(), "outputs that do not vary");
@@ -211,7 +211,7 @@ fn exact_indices_refuse_what_tells_nothing() {
 }
 
 #[test]
-fn exact_windows_above_a_threshold() {
+fn windows_above_a_threshold() {
     let x = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0];
     let above = intervals_above(&x, &[0.0, 2.0, 0.0, f64::NAN, 3.0, 4.0], 1.0);
     assert_eq!(above, [[0.5, 1.5], [4.0, 5.0]]);
@@ -221,7 +221,7 @@ fn exact_windows_above_a_threshold() {
 
 /// Held to the table the structure is an elastic oscillator, whose spectrum is known by another way.
 #[test]
-fn exact_fixed_base_is_the_elastic_spectrum() {
+fn fixed_base_is_the_elastic_spectrum() {
     let omega = 2.0 * core::f64::consts::PI / 0.6;
     let frame = Frame {
         masses_kg: vec![2.0],

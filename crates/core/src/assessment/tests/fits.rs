@@ -60,7 +60,7 @@ fn peer_distributions_agree_with_scipy() {
 }
 
 #[test]
-fn exact_distributions_at_their_edges() {
+fn distributions_at_their_edges() {
     assert_eq!((normal_quantile(0.0), normal_quantile(1.0)), (f64::NEG_INFINITY, f64::INFINITY));
     assert!(normal_quantile(-0.1).is_nan() && normal_quantile(f64::NAN).is_nan());
     assert_eq!(normal_quantile(0.5), 0.0);
@@ -336,7 +336,7 @@ fn peer_runs_of_pairs_agree_with_statsmodels_clustered_by_pair() {
 
 /// One observation a record is independence; one record tells nothing of the scatter between records.
 #[test]
-fn exact_clusters_of_one_are_independent() {
+fn clusters_of_one_are_independent() {
     let capacities =
         [0.3, 0.4, 0.55, 0.7, 0.5].map(|level| Capacity { level, reached: level < 0.6 });
     let alone = Fragility::of_capacities(&capacities).unwrap();
@@ -383,7 +383,7 @@ fn prop_bootstrap_over_records_is_near_the_sandwich() {
 
 /// Without censoring and with equal weights: mean and standard deviation with n.
 #[test]
-fn exact_uncensored_fit_is_mean_and_deviation() {
+fn uncensored_fit_is_mean_and_deviation() {
     let values = [1e6 + 1.0, 1e6 + 2.0, 1e6 + 4.0, 1e6 + 9.0];
     let data = values.map(|y| Observation { x: 0.0, y, known: Known::Exactly, weight: 2.5 });
     let fit = Fit::new(&data, false).unwrap();
@@ -394,7 +394,7 @@ fn exact_uncensored_fit_is_mean_and_deviation() {
 
 /// Baker's closed form: two levels are fitted exactly, so the curve goes through both shares.
 #[test]
-fn exact_two_stripes_are_met() {
+fn two_stripes_are_met() {
     let stripes =
         [(0.2, 3), (0.5, 16)].map(|(level, exceeded)| Stripe { level, runs: 20, exceeded });
     let fragility = Fragility::of_stripes(&stripes).unwrap();
@@ -410,7 +410,7 @@ fn exact_two_stripes_are_met() {
 }
 
 #[test]
-fn exact_data_that_cannot_tell_are_refused() {
+fn data_that_cannot_tell_are_refused() {
     let of = |rows: &[(f64, u64, u64)]| {
         let stripe = |&(level, runs, exceeded)| Stripe { level, runs, exceeded };
         Fragility::of_stripes(&rows.iter().map(stripe).collect::<Vec<_>>()).map(|_| ())
@@ -514,7 +514,7 @@ fn prop_every_set_of_counts_has_a_maximum_or_a_reason() {
 }
 
 #[test]
-fn exact_fractiles_interpolate_and_count() {
+fn fractiles_interpolate_and_count() {
     let values = [4.0, 1.0, 3.0, 2.0, 5.0];
     let rising = sorted(&values);
     assert_eq!(rising, [1.0, 2.0, 3.0, 4.0, 5.0]);

@@ -11,7 +11,7 @@ fn curve(points: &[(f64, f64)]) -> Curve {
 }
 
 #[test]
-fn exact_first_crossing_between_points() {
+fn first_crossing_between_points() {
     let rising = curve(&[(0.1, 0.0), (0.2, 1.0), (0.4, 3.0)]);
     let found = rising.first_crossing(2.0);
     assert_eq!((found.reached, found.between, found.returns), (true, [0.2, 0.4], None));
@@ -29,7 +29,7 @@ fn exact_first_crossing_between_points() {
 }
 
 #[test]
-fn exact_resurrection_is_told_and_failure_crosses() {
+fn resurrection_is_told_and_failure_crosses() {
     let back = curve(&[(0.1, 1.0), (0.2, 3.0), (0.3, 1.5), (0.4, 4.0)]);
     let found = back.first_crossing(2.0);
     assert!((found.level - 0.15).abs() < 1e-15);
@@ -40,7 +40,7 @@ fn exact_resurrection_is_told_and_failure_crosses() {
 }
 
 #[test]
-fn exact_hunt_finds_the_level_to_its_tolerance() {
+fn hunt_finds_the_level_to_its_tolerance() {
     for (start, capacity) in [(0.1, 0.737), (0.1, 0.013), (3.0, 0.02), (0.1, 0.1), (0.01, 9.99)] {
         let hunt = Hunt::new(1.0, start, 10.0).unwrap();
         let mut runs = 0;
@@ -60,7 +60,7 @@ fn exact_hunt_finds_the_level_to_its_tolerance() {
 
 /// A bump of the demand, a tenth of the crossing that doubling finds, is found by the fill.
 #[test]
-fn exact_hunt_finds_the_first_of_several_crossings() {
+fn hunt_finds_the_first_of_several_crossings() {
     let demand = |level: f64| {
         let bump = if (0.30..0.34).contains(&level) { 1.5 } else { 0.0 };
         (level / 2.0_f64).max(bump)
@@ -72,7 +72,7 @@ fn exact_hunt_finds_the_first_of_several_crossings() {
 }
 
 #[test]
-fn exact_hunt_stops_at_the_top() {
+fn hunt_stops_at_the_top() {
     let hunt = Hunt::new(1.0, 0.1, 3.0).unwrap();
     let found = hunt.run(|level| 0.1 * level);
     let crossing = found.first_crossing(1.0);
@@ -92,7 +92,7 @@ fn exact_hunt_stops_at_the_top() {
 }
 
 #[test]
-fn exact_fractiles_of_levels_count_what_is_not_reached() {
+fn fractiles_of_levels_count_what_is_not_reached() {
     let curves: Vec<Curve> =
         [1.0, 2.0, 4.0].map(|slope| curve(&[(0.5, 0.5 * slope), (1.0, slope)])).to_vec();
     let [low, middle, high] = level_fractiles(&curves, 2.0);

@@ -59,7 +59,7 @@ fn after(limit: u64, work: impl FnOnce(&Engine<'_>) -> AssessmentError) {
 }
 
 #[test]
-fn exact_runs_of_a_spectrum_are_those_of_each_model_alone() {
+fn runs_of_a_spectrum_are_those_of_each_model_alone() {
     let varied =
         [("friction", "slider.kinetic_friction=0.02,0.05"), ("over", "storey.1.period=0.2..1s:4")];
     let (models, suite) = (models(&varied), suite());
@@ -96,7 +96,7 @@ fn exact_runs_of_a_spectrum_are_those_of_each_model_alone() {
 }
 
 #[test]
-fn exact_a_fragility_comes_of_an_ida_without_a_file() {
+fn a_fragility_comes_of_an_ida_without_a_file() {
     let (models, suite) = (models(&[]), suite());
     let levels = IdaLevels::Fixed(vec![0.5, 1.0, 2.0, 4.0, 8.0]);
     let demand = "peak_sliding_displacement_m";
@@ -145,7 +145,7 @@ fn exact_a_fragility_comes_of_an_ida_without_a_file() {
 
 /// Levels of RotD50 are those of the pair, and both components take its factor.
 #[test]
-fn exact_levels_of_an_ida_are_those_of_the_pair_in_all_directions() {
+fn levels_of_an_ida_are_those_of_the_pair_in_all_directions() {
     let (models, mut suite) = (models(&[]), suite());
     suite.records.truncate(4);
     for (i, record) in suite.records.iter_mut().enumerate() {
@@ -184,7 +184,7 @@ fn exact_levels_of_an_ida_are_those_of_the_pair_in_all_directions() {
 }
 
 #[test]
-fn exact_the_front_of_a_design_is_that_of_all_runs() {
+fn the_front_of_a_design_is_that_of_all_runs() {
     let varied =
         [("friction", "slider.kinetic_friction=0.02..0.1:5"), ("vary", "slider.radius=1..4m:4")];
     let (models, suite) = (models(&varied), suite());
@@ -237,7 +237,7 @@ fn exact_the_front_of_a_design_is_that_of_all_runs() {
 
 /// What is asked for wrongly is named without the dashes of an option.
 #[test]
-fn exact_choices_are_named() {
+fn choices_are_named() {
     let (models, suite) = (models(&[]), suite());
     let error = models.column("peak_slidng_displacement_m").unwrap_err().to_string();
     assert!(error.starts_with("demand: expected the key of a demand"), "{error}");
@@ -250,7 +250,7 @@ fn exact_choices_are_named() {
 /// The same numbers on the caller's pool of any size.
 #[cfg(feature = "parallel")]
 #[test]
-fn exact_runs_do_not_depend_on_threads() {
+fn runs_do_not_depend_on_threads() {
     let varied = [("over", "storey.1.period=0.2..1s:6")];
     let (models, suite) = (models(&varied), suite());
     let scaling = Scaling::Factor(1.5);
@@ -271,7 +271,7 @@ fn exact_runs_do_not_depend_on_threads() {
 
 /// Designs of an incremental dynamic analysis are run as each alone; averaged, taken apart and kept.
 #[test]
-fn exact_designs_of_an_ida_are_those_of_each_alone() {
+fn designs_of_an_ida_are_those_of_each_alone() {
     let (alone, suite) = (models(&[]), suite());
     let demand = "peak_sliding_displacement_m";
     let bounds = [Bound { name: "lower", friction_factor: 0.8 }, Bound::NOMINAL];
@@ -317,7 +317,7 @@ fn exact_designs_of_an_ida_are_those_of_each_alone() {
 
 /// A spectrum with bounds of friction has a group of curves for each, the runs of each alone.
 #[test]
-fn exact_bounds_of_a_spectrum_are_groups() {
+fn bounds_of_a_spectrum_are_groups() {
     let (models, suite) = (models(&[("over", "slider.radius=1, 2, 3 m")]), suite());
     let scaling = Scaling::Level(PGA, 3.0);
     let upper = Bound { name: "upper", friction_factor: 1.3 };
@@ -355,7 +355,7 @@ fn long(slider: &str, more: &str, samples: usize) -> Job {
 }
 
 #[test]
-fn exact_one_analysis_is_stopped_wherever_it_is() {
+fn one_analysis_is_stopped_wherever_it_is() {
     let storeys = "[[storey]]\nmass = \"5 t\"\nstiffness = \"9 kN/mm\"\ndamping_ratio = 0.05\n";
     let contents =
         "[[contents]]\nfloor = 0\nmass = \"1 kg\"\nstatic_friction = 0.2\nkinetic_friction = 0.2\n";
@@ -403,7 +403,7 @@ fn exact_one_analysis_is_stopped_wherever_it_is() {
 
 /// A suite of one long record ends within the first of its runs, and its runs are shared out bound by bound.
 #[test]
-fn exact_a_suite_is_stopped_within_a_run() {
+fn a_suite_is_stopped_within_a_run() {
     let analysis = input::parse("m.toml", MODEL, &[]).unwrap();
     let wave = |i: u32| 4.0 * libm::sin(0.07 * f64::from(i)) * libm::sin(0.23 * f64::from(i));
     let motion = GroundMotion::evenly_spaced(0.01, (0..300_000).map(wave).collect(), None);

@@ -21,7 +21,7 @@ fn small(from: &str, to: &str) -> String {
 }
 
 #[test]
-fn exact_unknown_keys_at_any_depth() {
+fn unknown_keys_at_any_depth() {
     assert_eq!(
         changed("spring = ", "sprng = "),
         "m.toml:10:1: slider.sprng: expected one of the keys static_friction, kinetic_friction, \
@@ -59,7 +59,7 @@ fn exact_unknown_keys_at_any_depth() {
 }
 
 #[test]
-fn exact_missing_keys_at_their_table() {
+fn missing_keys_at_their_table() {
     assert_eq!(refused(""), "m.toml:1:1: block: expected a table [block], found nothing");
     assert_eq!(
         small("mass = \"325 kg\"\n", ""),
@@ -94,7 +94,7 @@ fn exact_missing_keys_at_their_table() {
 }
 
 #[test]
-fn exact_excluding_keys() {
+fn excluding_keys() {
     for (from, to, message) in [
         (
             "damper = \"0 N s/m\"",
@@ -156,7 +156,7 @@ fn exact_excluding_keys() {
 }
 
 #[test]
-fn exact_wrong_types() {
+fn wrong_types() {
     for (from, to, message) in [
         (
             "\"325 kg\"",
@@ -230,7 +230,7 @@ fn exact_wrong_types() {
 }
 
 #[test]
-fn exact_wrong_units_and_ranges() {
+fn wrong_units_and_ranges() {
     for (from, to, message) in [
         (
             "\"143 kN/m\"",
@@ -292,7 +292,7 @@ fn exact_wrong_units_and_ranges() {
 }
 
 #[test]
-fn exact_rules_between_keys() {
+fn rules_between_keys() {
     assert_eq!(
         changed("0.012", "0.021"),
         "m.toml:9:20: slider.kinetic_friction: expected at most the static friction 0.02, found \
@@ -342,7 +342,7 @@ fn two_storeys(first: &str, second: &str, more: &str) -> String {
 }
 
 #[test]
-fn exact_mixtures_of_storeys() {
+fn mixtures_of_storeys() {
     let k = "stiffness = \"1 kN/m\"; damping_ratio = 0.02".replace("; ", "\n");
     assert_eq!(
         two_storeys(&k, "frequency = \"1 Hz\"\ndamping_ratio = 0.02", ""),
@@ -382,7 +382,7 @@ fn exact_mixtures_of_storeys() {
 }
 
 #[test]
-fn exact_faults_of_the_toml() {
+fn faults_of_the_toml() {
     for (text, message) in [
         (
             "[block]\nmass = 325 kg\n",
@@ -406,7 +406,7 @@ fn exact_faults_of_the_toml() {
 }
 
 #[test]
-fn exact_found_text_is_cut_and_escaped() {
+fn found_text_is_cut_and_escaped() {
     let long = small("325 kg", &"k".repeat(100));
     assert!(long.ends_with(&format!("found \"{}…\"", "k".repeat(40))), "{long}");
     let control = small("325 kg", "3\\u001b[31m kg");
@@ -421,7 +421,7 @@ fn unmade(keys: &str) -> String {
 }
 
 #[test]
-fn exact_motions_that_cannot_be_made() {
+fn motions_that_cannot_be_made() {
     assert_eq!(
         unmade("amplitude = \"1 g\"\nduration = \"1e6 s\"\ndt = \"1e-6 s\"\n"),
         "m.toml:10:6: motion.sine.dt: expected at most 100 000 000 samples, found 1.0e12"
@@ -446,14 +446,14 @@ fn exact_motions_that_cannot_be_made() {
 
 /// Squares and products of numbers stay finite: those of a size that nothing has are refused.
 #[test]
-fn exact_numbers_are_of_some_size() {
+fn numbers_are_of_some_size() {
     let sizes = "expected a mass from 1e-30 to 1e30 in SI, found";
     assert!(small("325 kg", "1e150 kg").ends_with(&format!("{sizes} \"1e150 kg\"")));
     assert!(small("325 kg", "1e-99 t").ends_with(&format!("{sizes} \"1e-99 t\"")));
 }
 
 #[test]
-fn exact_stops_that_cannot_be() {
+fn stops_that_cannot_be() {
     let stop = |text: &str| with(&format!("[slider.stop]\n{text}")).unwrap_err();
     let gap = "gap = \"0.1 m\"\n";
     let stiff = "stiffness = \"1 MN/m\"\n";
@@ -516,7 +516,7 @@ fn exact_stops_that_cannot_be() {
 
 /// Friction by speed, surfaces, contents and rigid stops: one clear error each.
 #[test]
-fn exact_devices_that_cannot_be() {
+fn devices_that_cannot_be() {
     let model = |slider: &str| {
         let head = "[block]\nmass = \"325 kg\"\n[slider]\n";
         refused(&format!("{head}{slider}\n"))

@@ -14,7 +14,7 @@ fn message(text: &str) -> String {
 
 /// A storey and a frame are along y as along x but for what is given with `_y`.
 #[test]
-fn exact_frame_along_y() {
+fn frame_along_y() {
     let storey = "[[storey]]\nmass = \"40 kg\"\nstiffness = \"36 kN/m\"\ndamping_ratio = 0.02\n";
     let along_y = |more: &str, frame: &str| {
         let text = format!("{BLOCK}{storey}{more}{frame}{PAIR}");
@@ -40,7 +40,7 @@ fn exact_frame_along_y() {
 
 /// Everything of the second record, which else is read as the first.
 #[test]
-fn exact_pair_of_records() {
+fn pair_of_records() {
     let source = |more: &str| {
         let analysis = parse("m.toml", &format!("{BLOCK}{PAIR}{more}"), &[]).unwrap();
         let Some(MotionSource::Record(record)) = analysis.motion else { panic!("no record") };
@@ -65,7 +65,7 @@ fn exact_pair_of_records() {
 
 /// Sines along x and y, turned by a quarter: x takes −y, y takes x.
 #[test]
-fn exact_sines_in_two_directions() {
+fn sines_in_two_directions() {
     let sine = |amplitude: &str| {
         format!(
             "{{ frequency = \"1 Hz\", amplitude = \"{amplitude}\", duration = \"2 s\", dt = \"0.25 s\" }}"
@@ -89,7 +89,7 @@ fn exact_sines_in_two_directions() {
 
 /// A start along x, or along both; what is written reads back the same.
 #[test]
-fn exact_start_in_two_directions() {
+fn start_in_two_directions() {
     let storeys =
         "[[storey]]\nmass = \"40 kg\"\nstiffness = \"36 kN/m\"\ndamping_ratio = 0.02\n".repeat(2);
     let initial = "[initial]\nsliding_displacement = [\"10 mm\", \"-2 mm\"]\nsliding_velocity = \"0.1 m/s\"\n\
@@ -108,7 +108,7 @@ fn exact_start_in_two_directions() {
 
 /// What speaks of y where there is no y, and what is not solved in two directions.
 #[test]
-fn exact_keys_of_one_direction_or_two() {
+fn keys_of_one_direction_or_two() {
     let one = "[motion]\nrecord = \"x.at2\"\n";
     let expected = "expected a motion in two directions, motion.record_y or motion.sine_y, of which this \
                     is, found a motion in one";
@@ -181,7 +181,7 @@ fn structure(keys: &str, table: &str) -> Result<crate::model::Structure, String>
 
 /// Participations and shapes along y are kept with their signs, those of a mode along y alone too.
 #[test]
-fn exact_modes_keep_what_they_do_along_y() {
+fn modes_keep_what_they_do_along_y() {
     let found = structure("period_factor = 2.0\n", TABLE).unwrap();
     let mode = &found.in_plane[0];
     assert_eq!((mode.participation, mode.points[0]), ([200.0, -60.0], [0.004, -0.0012]));
@@ -217,7 +217,7 @@ fn exact_modes_keep_what_they_do_along_y() {
 
 /// What is wrong along y is said with its place.
 #[test]
-fn exact_modes_wrong_along_y() {
+fn modes_wrong_along_y() {
     for (from, to, expected) in [
         (
             ",60,200,",

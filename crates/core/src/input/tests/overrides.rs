@@ -10,7 +10,7 @@ fn value(text: &str, set: &[&str], path: &str) -> Option<f64> {
 }
 
 #[test]
-fn exact_values_are_toml_or_else_text() {
+fn values_are_toml_or_else_text() {
     for set in ["slider.gap=50 mm", "slider.gap=\"50 mm\"", " slider.gap = 50 mm "] {
         assert_eq!(value(FULL, &[set], "slider.gap"), Some(0.05), "{set}");
     }
@@ -23,7 +23,7 @@ fn exact_values_are_toml_or_else_text() {
 }
 
 #[test]
-fn exact_storeys_and_lists_count_from_one() {
+fn storeys_and_lists_count_from_one() {
     assert_eq!(value(FULL, &["storey.1.mass=90 kg"], "storey.1.mass"), Some(90.0));
     let path = "initial.storey_displacement.1";
     assert_eq!(value(FULL, &["initial.storey_displacement.1=7 mm"], path), Some(0.007));
@@ -31,14 +31,14 @@ fn exact_storeys_and_lists_count_from_one() {
 }
 
 #[test]
-fn exact_missing_tables_are_made() {
+fn missing_tables_are_made() {
     let analysis = read(SMALLEST, &["analysis.tail=3 s", "motion.record=taft.txt"]).unwrap();
     assert_eq!(analysis.tail_s, 3.0);
     assert!(matches!(analysis.motion, Some(MotionSource::Record(_))));
 }
 
 #[test]
-fn exact_setting_a_key_removes_what_excludes_it() {
+fn setting_a_key_removes_what_excludes_it() {
     let radius = read(FULL, &["slider.radius=2.2 m"]).unwrap();
     assert_eq!(radius.value("slider.spring"), None);
     let damper = read(FULL, &["storey.1.damper=9 N s/m"]).unwrap();
@@ -59,14 +59,14 @@ fn exact_setting_a_key_removes_what_excludes_it() {
 
 /// A coefficient for both directions becomes one for each; asymmetry is another way to say so.
 #[test]
-fn exact_setting_one_direction_keeps_the_other() {
+fn setting_one_direction_keeps_the_other() {
     let model = read(FULL, &["slider.static_friction.positive=0.03"]).unwrap().model;
     assert_eq!(model.static_friction(), [0.03, 0.02]);
     assert_eq!(model.kinetic_friction(), [0.012, 0.012]);
 }
 
 #[test]
-fn exact_numbers_are_set_bit_for_bit() {
+fn numbers_are_set_bit_for_bit() {
     for (path, number) in [
         ("slider.kinetic_friction", 0.1 * 0.11),
         ("slider.spring", 1e5 / 3.0),
@@ -83,7 +83,7 @@ fn exact_numbers_are_set_bit_for_bit() {
 }
 
 #[test]
-fn exact_messages_point_into_the_option() {
+fn messages_point_into_the_option() {
     let refused = |set: &str| read(FULL, &[set]).unwrap_err();
     assert_eq!(
         refused("slider.kinetic_friction=0.03"),
@@ -133,7 +133,7 @@ fn exact_messages_point_into_the_option() {
 }
 
 #[test]
-fn exact_stops_are_set_by_path() {
+fn stops_are_set_by_path() {
     let stop = ["slider.stop.gap=150 mm", "slider.stop.stiffness=40 kN/mm"];
     assert!(
         read(FULL, &stop[..1])
@@ -156,7 +156,7 @@ fn exact_stops_are_set_by_path() {
 
 /// Where no option gave a value, its error names the key alone.
 #[test]
-fn exact_messages_of_values_name_the_key() {
+fn messages_of_values_name_the_key() {
     let message = |set: Override| parse("m.toml", FULL, &[set]).unwrap_err().to_string();
     assert_eq!(
         message(Override::number("slider.gap", -0.1).unwrap()),
@@ -178,7 +178,7 @@ fn exact_messages_of_values_name_the_key() {
 
 /// The values of a model file, as numbers in SI or as their texts, make the same model without it.
 #[test]
-fn exact_models_are_made_of_values() {
+fn models_are_made_of_values() {
     let whole = parse("m.toml", FULL, &[]).unwrap();
     let as_texts: Vec<_> =
         whole.inputs().map(|input| (input.path, InputValue::Text(input.text))).collect();
@@ -213,7 +213,7 @@ fn exact_models_are_made_of_values() {
 
 /// What the file does not have is added key by key; what it has keeps its length.
 #[test]
-fn exact_the_first_of_a_list_is_added() {
+fn the_first_of_a_list_is_added() {
     let text = "[block]\nmass = \"1 t\"\n[slider]\nstatic_friction = 0.1\nkinetic_friction = 0.1\n";
     let with = |set: &[&str]| {
         let set: Vec<Override> = set.iter().map(|one| Override::parse(one).unwrap()).collect();
@@ -238,7 +238,7 @@ fn exact_the_first_of_a_list_is_added() {
 
 /// Keys and items of lists are taken out; a list grows by one where that is asked for.
 #[test]
-fn exact_keys_are_taken_out_and_lists_grow() {
+fn keys_are_taken_out_and_lists_grow() {
     let text = "[block]\nmass = \"1 t\"\n[slider]\nstatic_friction = 0.1\nkinetic_friction = 0.1\n\
                 spring = \"9 kN/m\"\ndamping_ratio = 0.1\n[[storey]]\nmass = \"1 t\"\n\
                 period = \"1 s\"\ndamping_ratio = 0.02\n";

@@ -21,7 +21,7 @@ fn distribution(path: &str, how: &str) -> Distribution {
 
 /// The plan of the manual.
 #[test]
-fn exact_whole_plan() {
+fn whole_plan() {
     let text = r#"
 name  = "Friction and radius over the far-field suite"
 model = "tank.toml"
@@ -68,7 +68,7 @@ correlation = [["slider.kinetic_friction", "slider.radius", 0.3]]
 }
 
 #[test]
-fn exact_distributions() {
+fn distributions_are_read() {
     let friction = |how| distribution("slider.kinetic_friction", how);
     let list = |list| Distribution::List(list);
     assert_eq!(friction("{ values = [0.1, 0.2] }"), list(List::Values(vec![0.1, 0.2])));
@@ -95,7 +95,7 @@ fn exact_distributions() {
 
 /// A path is keys joined by dots, quoted or not; a number for both directions has two of its own.
 #[test]
-fn exact_paths_may_be_written_as_keys() {
+fn paths_may_be_written_as_keys() {
     let text = format!(
         "model = \"m.toml\"\n[vary]\nslider.radius = {{ values = [\"1 m\"] }}\n\
          slider.static_friction.positive = {{ values = [0.2] }}\n\
@@ -114,7 +114,7 @@ fn exact_paths_may_be_written_as_keys() {
 }
 
 #[test]
-fn exact_grid_counts_its_lists() {
+fn grid_counts_its_lists() {
     let text = "model = \"m.toml\"\n[vary]\n\
                 \"slider.radius\" = { values = [\"1 m\", \"2 m\"] }\n\
                 \"slider.kinetic_friction\" = { linspace = [0.1, 0.2, 5] }\n\
@@ -124,7 +124,7 @@ fn exact_grid_counts_its_lists() {
 }
 
 #[test]
-fn exact_errors_say_where_and_what() {
+fn errors_say_where_and_what() {
     let long = "{ linspace = [0.1, 0.2, 20000] }";
     let grid = format!(
         "model = \"m.toml\"\n[vary]\n\"slider.static_friction\" = {long}\n\
@@ -304,7 +304,7 @@ fn exact_errors_say_where_and_what() {
 }
 
 #[test]
-fn exact_variation_is_what_set_does() {
+fn variation_is_what_set_does() {
     let model = "[block]\nmass = \"325 kg\"\n[slider]\nspring = \"1 kN/m\"\n\
                  static_friction = 0.2\nkinetic_friction = 0.1\n";
     let text = format!(
@@ -335,7 +335,7 @@ fn exact_variation_is_what_set_does() {
 }
 
 #[test]
-fn exact_schema_of_plans_knows_every_key() {
+fn schema_of_plans_knows_every_key() {
     let schema = plan_json_schema();
     for key in ["model", "files", "levels", "correlation", "factor_of", "lognormal", "seed"] {
         assert!(schema.contains(&format!("\"{key}\": {{")), "{key}");

@@ -87,7 +87,7 @@ proptest! {
 
 /// Nesting as deep as the text is long neither overflows the stack nor takes for ever.
 #[test]
-fn exact_deep_nesting_is_refused() {
+fn deep_nesting_is_refused() {
     for unit in ["[", "{a=", "a.", "[a.", "[["] {
         survives(unit.repeat(20_000).as_bytes());
         survives(format!("a = {}", unit.repeat(20_000)).as_bytes());
@@ -102,7 +102,7 @@ fn exact_deep_nesting_is_refused() {
 /// Lists longer than anyone models are refused at the first item too many, before anything is made of
 /// them, and the schema says how long they may be.
 #[test]
-fn exact_long_lists_are_refused() {
+fn long_lists_are_refused() {
     let contents =
         "[[contents]]\nfloor = 0\nmass = \"1 kg\"\nstatic_friction = 0.2\nkinetic_friction = 0.2\n";
     let surfaces = "[block]\nmass = \"1 t\"\n[slider]\n";
@@ -143,7 +143,7 @@ fn exact_long_lists_are_refused() {
 
 /// Thousands of storeys are refused before any matrix of them is made.
 #[test]
-fn exact_too_many_storeys_are_refused() {
+fn too_many_storeys_are_refused() {
     let storey = "[[storey]]\nmass = \"1 t\"\nstiffness = \"1 MN/m\"\ndamping_ratio = 0.02\n";
     let text = format!("{SMALLEST}{}", storey.repeat(201));
     assert_eq!(
@@ -156,7 +156,7 @@ fn exact_too_many_storeys_are_refused() {
 
 /// A file that cannot be a model is refused before its text is taken apart.
 #[test]
-fn exact_texts_too_long_for_a_model_are_refused() {
+fn texts_too_long_for_a_model_are_refused() {
     let text = "#".repeat(MAX_TEXT_BYTES - SMALLEST.len()) + "\n" + SMALLEST;
     assert_eq!(
         parse("m.toml", &text, &[]).unwrap_err().to_string(),

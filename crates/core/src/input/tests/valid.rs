@@ -17,7 +17,7 @@ use crate::slider::{RateCurve, RateLaw, Surface, SurfacesInSeries};
 use crate::units::Dimension;
 
 #[test]
-fn exact_full_example() {
+fn full_example() {
     let analysis = read(FULL, &[]).unwrap();
     assert_eq!(analysis.name.as_deref(), Some("Section 6 mock-up"));
     let model = &analysis.model;
@@ -64,7 +64,7 @@ fn exact_full_example() {
 
 /// `M = W/g` with the model's own g; `K1 = M_tot (2π/T)²`; a kip is 4448.2216152605 N.
 #[test]
-fn exact_weights_and_periods_stand_for_masses_and_springs() {
+fn weights_and_periods_stand_for_masses_and_springs() {
     let text = "[block]\nweight = \"1200 kip\"\nname = \"Base mat\"\n[slider]\n\
                 static_friction = 0.06\nkinetic_friction = 0.05\nperiod = \"3 s\"\n\
                 [[storey]]\nweight = \"981 kN\"\nname = \"Roof\"\nperiod = \"0.5 s\"\n\
@@ -85,7 +85,7 @@ fn exact_weights_and_periods_stand_for_masses_and_springs() {
 }
 
 #[test]
-fn exact_inputs_are_given_as_written() {
+fn inputs_are_given_as_written() {
     let analysis = read(FULL, &["slider.gap=0.2 m"]).unwrap();
     let inputs: Vec<_> = analysis.inputs().map(|i| (i.path, i.text, i.value, i.unit)).collect();
     for input in [
@@ -106,7 +106,7 @@ fn exact_inputs_are_given_as_written() {
 }
 
 #[test]
-fn exact_defaults() {
+fn what_is_not_given_has_its_default() {
     let analysis = read(SMALLEST, &[]).unwrap();
     assert_eq!(analysis.name, None);
     assert_eq!(analysis.model.storeys(), 0);
@@ -124,7 +124,7 @@ fn exact_defaults() {
 }
 
 #[test]
-fn exact_each_initial_key_replaces_its_own_default() {
+fn each_initial_key_replaces_its_own_default() {
     let initial = with("[initial]\nsliding_velocity = \"-20 cm/s\"\n").unwrap();
     assert_eq!(
         initial.model.initial(),
@@ -134,7 +134,7 @@ fn exact_each_initial_key_replaces_its_own_default() {
 
 /// K1 = M_tot g cos θ / R and C1 = 2 ξ √(K1 M_tot), with the storeys' masses and the model's gravity.
 #[test]
-fn exact_pendulum_radius_and_damping_ratio() {
+fn pendulum_radius_and_damping_ratio() {
     let text = SMALLEST.replace("[slider]", "[slider]\nradius = \"2 m\"\ndamping_ratio = 0.05");
     let more = "[[storey]]\nmass = \"75 kg\"\nperiod = \"0.5 s\"\ndamper = \"9 N s/m\"\n\
                 [analysis]\ngravity = \"10 m/s2\"\n";
@@ -148,14 +148,14 @@ fn exact_pendulum_radius_and_damping_ratio() {
 
 /// N/R, with the N that a tilted block presses on the surface.
 #[test]
-fn exact_tilted_pendulum_has_the_spring_of_its_normal_force() {
+fn tilted_pendulum_has_the_spring_of_its_normal_force() {
     let text = SMALLEST.replace("[slider]", "[slider]\nradius = \"2 m\"\ntilt = \"60 mrad\"");
     let model = read(&text, &[]).unwrap().model;
     assert_eq!(model.slider_stiffness_n_per_m(), model.normal_n() / 2.0);
 }
 
 #[test]
-fn exact_friction_by_direction() {
+fn friction_by_direction() {
     let tables = "[block]\nmass = \"1 t\"\n[slider]\n\
                   static_friction = { positive = 0.03, negative = 0.02 }\n\
                   [slider.kinetic_friction]\npositive = 0.01\nnegative = 0.02\n";
@@ -187,7 +187,7 @@ damping_ratio = 0.02
 /// 4λ³ − 20λ² + 25λ − 6 = 0 in units of k/m (determinant expanded by hand); scaling to a period
 /// must give that period whatever the unit of the ratios.
 #[test]
-fn exact_frame_period_scales_stiffnesses() {
+fn frame_period_scales_stiffnesses() {
     let free = with(THREE_STOREYS).unwrap().model;
     assert_eq!(free.frame().stiffnesses_n_per_m, [3e6, 2e6, 1e6]);
     assert_eq!(free.frame().damping, Damping::Ratio(0.02));
@@ -212,7 +212,7 @@ fn exact_frame_period_scales_stiffnesses() {
 }
 
 #[test]
-fn exact_made_motions() {
+fn made_motions() {
     let sine = "[motion]\nsine = { frequency = \"2 Hz\", amplitude = \"0.2 g\", duration = \"5 s\", \
                 dt = \"5 ms\", phase = \"90 deg\", decay = \"1 s\" }\n";
     let expected = Sine {
@@ -253,7 +253,7 @@ fn exact_made_motions() {
 }
 
 #[test]
-fn exact_record_keys() {
+fn record_keys() {
     let source = |more: &str| match with(&format!("[motion]\nrecord = \"a.csv\"\n{more}")) {
         Ok(analysis) => match analysis.motion {
             Some(MotionSource::Record(record)) => record,
@@ -276,7 +276,7 @@ fn exact_record_keys() {
 }
 
 #[test]
-fn exact_byte_order_mark_and_crlf_change_nothing() {
+fn byte_order_mark_and_crlf_change_nothing() {
     let crlf = format!("\u{feff}{}", FULL.replace('\n', "\r\n"));
     let (plain, windows) = (read(FULL, &[]).unwrap(), read(&crlf, &[]).unwrap());
     assert_eq!(plain.model, windows.model);
@@ -288,7 +288,7 @@ fn exact_byte_order_mark_and_crlf_change_nothing() {
 }
 
 #[test]
-fn exact_bytes_that_are_not_utf8_are_refused() {
+fn bytes_that_are_not_utf8_are_refused() {
     let mut bytes = SMALLEST.replace("325", "3é5").into_bytes();
     let after = bytes.iter().position(|b| *b == 0xc3).unwrap() + 2;
     bytes[after] = 0xff;
@@ -300,7 +300,7 @@ fn exact_bytes_that_are_not_utf8_are_refused() {
 }
 
 #[test]
-fn exact_values_can_be_refused_by_their_user() {
+fn values_can_be_refused_by_their_user() {
     let analysis = parse("m.toml", FULL, &[]).unwrap();
     let error = analysis.error_at("motion.record", "a file that exists", "none");
     assert_eq!(
@@ -313,7 +313,7 @@ fn exact_values_can_be_refused_by_their_user() {
 
 /// The schema is JSON, and has a description for every key at every depth.
 #[test]
-fn exact_json_schema_is_json_and_describes_every_key() {
+fn json_schema_is_json_and_describes_every_key() {
     fn count(node: &serde_json::Value) -> usize {
         let own = node.get("properties").and_then(|p| p.as_object()).map_or(0, |properties| {
             let described = properties.values().filter(|key| key.get("description").is_some());
@@ -342,7 +342,7 @@ fn exact_json_schema_is_json_and_describes_every_key() {
 }
 
 #[test]
-fn exact_stops_by_side_with_damper_or_ratio() {
+fn stops_by_side_with_damper_or_ratio() {
     let stop =
         |text: &str| with(&format!("[slider.stop]\n{text}")).map(|a| *a.model.stop().unwrap());
     let elastic = |c| StopKind::Elastic { stiffness_n_per_m: 4e7, damper_n_s_per_m: c };
@@ -367,7 +367,7 @@ fn exact_stops_by_side_with_damper_or_ratio() {
 
 /// The builder has the words of the file and makes the same bits of them.
 #[test]
-fn exact_builder_makes_the_model_of_the_file() {
+fn builder_makes_the_model_of_the_file() {
     let file = |slider: &str, rest: &str| {
         let text = format!("[block]\nmass = \"31 t\"\n[slider]\n{slider}\n{rest}");
         read(&text, &[]).unwrap().model
@@ -413,7 +413,7 @@ fn exact_builder_makes_the_model_of_the_file() {
 }
 
 #[test]
-fn exact_builder_says_what_is_wrong_or_missing() {
+fn builder_says_what_is_wrong_or_missing() {
     let whole = || Model::builder().block("31 t").friction(0.06, 0.05);
     for (builder, message) in [
         (

@@ -57,7 +57,7 @@ fn kinds(text: &str) -> Vec<String> {
 
 /// The block comes to rest 2e-9 s after a sample: at the sample it still slides.
 #[test]
-fn exact_an_event_just_after_a_sample_is_not_seen_at_it() {
+fn an_event_just_after_a_sample_is_not_seen_at_it() {
     let a = table(600);
     let motion = GroundMotion::evenly_spaced(0.01, a.clone(), None).unwrap();
     let events = solver::exact(&model(), &motion).unwrap().events;
@@ -76,7 +76,7 @@ fn exact_an_event_just_after_a_sample_is_not_seen_at_it() {
 }
 
 #[test]
-fn exact_our_own_history_is_met_exactly() {
+fn our_own_history_is_met_exactly() {
     let (_, comparison) = compared(&file(|a| a, 0), &[]);
     assert_eq!(comparison.compared.len(), 2);
     for Compared { pair, metrics } in &comparison.compared {
@@ -94,7 +94,7 @@ fn exact_our_own_history_is_met_exactly() {
 }
 
 #[test]
-fn exact_wrong_units_signs_and_clocks_are_named() {
+fn wrong_units_signs_and_clocks_are_named() {
     let unit = kinds(&file(|a| a / G, 0));
     assert!(
         unit.iter()
@@ -120,7 +120,7 @@ fn exact_wrong_units_signs_and_clocks_are_named() {
 }
 
 #[test]
-fn exact_columns_of_accelerations_in_the_ratio_of_g() {
+fn columns_of_accelerations_in_the_ratio_of_g() {
     let text = "time_s,table_acceleration_m_per_s2,block_acceleration_m_per_s2\n0,0,0\n1,0.5,4.9\n2,-0.4,1\n";
     let measured = Measured::read("m.csv", text.as_bytes(), &Mapping::default()).unwrap();
     let warnings = suspicions(&measured, &[]);
@@ -130,7 +130,7 @@ fn exact_columns_of_accelerations_in_the_ratio_of_g() {
 
 /// Between knots the cubic has the right rates: s = t² − t³ is met to rounding.
 #[test]
-fn exact_interpolation_of_a_cubic() {
+fn interpolation_of_a_cubic() {
     let times = [0.0, 0.4, 1.0];
     let history = History {
         time_s: times.to_vec(),

@@ -80,7 +80,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_bounds() {
+    fn bounds_are_read() {
         let bound = Within::parse("peak_ratio.sliding_displacement=0.9..1.1").unwrap();
         assert_eq!(bound.name(), "peak_ratio.sliding_displacement");
         assert!(bound.holds(Some(0.9)) && bound.holds(Some(1.1)));

@@ -98,7 +98,7 @@ fn truth(path: &str, normal_n: f64) -> f64 {
 }
 
 #[test]
-fn exact_without_noise() {
+fn without_noise() {
     let made = made(0.5, 6.4, [0.0; 2], 1);
     let fit = cyclic(&test(&made)).unwrap();
     assert!(fit.cycles.len() >= 5, "{fit:?}");
@@ -262,7 +262,7 @@ fn coverage_cyclic_locked() {
 
 /// Without the zeros of the sensors an offset would be friction that differs by direction.
 #[test]
-fn exact_friction_by_direction_needs_the_zero() {
+fn friction_by_direction_needs_the_zero() {
     let mut made = made(0.5, 9.3, [1e-5, 1.5], 1);
     let of = |made: &Made, zero_known: bool| {
         let fit = cyclic(&CyclicTest { zero_known, ..test(made) }).unwrap();
@@ -310,7 +310,7 @@ fn silent_is_refused(seed: u64) -> bool {
 }
 
 #[test]
-fn exact_what_cannot_be_told_is_refused() {
+fn what_cannot_be_told_is_refused() {
     for seed in 0..24 {
         assert!(silent_is_refused(seed), "{seed}");
     }
@@ -320,7 +320,7 @@ fn exact_what_cannot_be_told_is_refused() {
 
 /// Sampled so coarsely that the force rises by as much a step as it falls at breakaway.
 #[test]
-fn exact_a_breakaway_between_coarse_samples_is_refused() {
+fn a_breakaway_between_coarse_samples_is_refused() {
     let mut coarse = made(0.5, 6.4, [0.0, 0.5], 1);
     for list in [&mut coarse.times_s, &mut coarse.displacement_m, &mut coarse.force_n] {
         *list = list.iter().copied().step_by(6).collect();
@@ -332,7 +332,7 @@ fn exact_a_breakaway_between_coarse_samples_is_refused() {
 }
 
 #[test]
-fn exact_frequency_dependence_over_several_tests() {
+fn frequency_dependence_over_several_tests() {
     let slow = made(0.2, 6.4, [1e-5, 0.5], 1);
     let fast = made(1.0, 6.4, [1e-5, 0.5], 2);
     let fits = [cyclic(&test(&slow)).unwrap(), cyclic(&test(&fast)).unwrap()];

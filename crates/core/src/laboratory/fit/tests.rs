@@ -13,7 +13,7 @@ fn interval(problem: &Problem, minimum: &Minimum, index: usize, variance: f64) -
 
 /// A straight line: the profile is the interval of the textbook.
 #[test]
-fn exact_line_has_the_interval_of_the_textbook() {
+fn line_has_the_interval_of_the_textbook() {
     let mut random = Random::new(11);
     let data: Vec<[f64; 2]> = (0..30)
         .map(|i| {
@@ -41,7 +41,7 @@ fn exact_line_has_the_interval_of_the_textbook() {
 
 /// Rosenbrock's valley, whose minimum is at (1, 1).
 #[test]
-fn exact_minimum_of_a_curved_valley() {
+fn minimum_of_a_curved_valley() {
     let residuals = |p: &[f64]| Some(vec![10.0 * (p[1] - p[0] * p[0]), 1.0 - p[0]]);
     let problem = Problem { bounds: vec![[-2.0, 2.0], [-2.0, 2.0]], residuals: &residuals };
     let minimum = global(&problem, Some(&[-1.2, 1.0]), 7).unwrap();
@@ -51,7 +51,7 @@ fn exact_minimum_of_a_curved_valley() {
 
 /// A saw whose teeth point away from the minimum: derivatives lead nowhere.
 #[test]
-fn exact_a_saw_is_climbed_without_derivatives() {
+fn a_saw_is_climbed_without_derivatives() {
     let residuals = |p: &[f64]| {
         let tooth = 30.0 * p[0] - libm::floor(30.0 * p[0]);
         Some(vec![(p[0] - 0.3).abs() + 0.05 * tooth, 0.0])
@@ -63,7 +63,7 @@ fn exact_a_saw_is_climbed_without_derivatives() {
 }
 
 #[test]
-fn exact_a_parameter_without_effect_has_no_end() {
+fn a_parameter_without_effect_has_no_end() {
     let residuals = |p: &[f64]| Some((0..20).map(|i| p[0] - f64::from(i % 2)).collect());
     let problem = Problem { bounds: vec![[-3.0, 3.0], [0.0, 1.0]], residuals: &residuals };
     let minimum = global(&problem, None, 2).unwrap();
@@ -72,7 +72,7 @@ fn exact_a_parameter_without_effect_has_no_end() {
 }
 
 #[test]
-fn exact_no_value_anywhere_is_no_fit() {
+fn no_value_anywhere_is_no_fit() {
     let problem = Problem { bounds: vec![[0.0, 1.0]], residuals: &|_: &[f64]| None };
     assert!(global(&problem, None, 1).is_none());
     let nan = |_: &[f64]| Some(vec![f64::NAN]);

@@ -234,7 +234,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_cubic_through_four_values() {
+    fn a_cubic_through_four_values() {
         let y = |x: f64| 2.0 - x + 0.5 * x * x - 0.25 * x * x * x;
         for u in [0.0, 0.125, 0.5, 1.0] {
             assert!((cubic([-1.0, 0.0, 1.0, 2.0].map(y), u) - y(u)).abs() < 1e-15);

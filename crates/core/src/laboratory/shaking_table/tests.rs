@@ -85,7 +85,7 @@ fn fitted_by(
 
 /// The follower stops a fit after so many runs.
 #[test]
-fn exact_a_fit_is_stopped() {
+fn a_fit_is_stopped() {
     let runs = core::sync::atomic::AtomicU64::new(0);
     let follow = |more| match runs.fetch_add(more, core::sync::atomic::Ordering::Relaxed) {
         10.. => core::ops::ControlFlow::Break(()),
@@ -101,7 +101,7 @@ fn exact_a_fit_is_stopped() {
 const STATIC_KINETIC: [&str; 2] = ["slider.static_friction", "slider.kinetic_friction"];
 
 #[test]
-fn exact_without_noise_the_truth_is_found() {
+fn without_noise_the_truth_is_found() {
     let measured = made(BLOCK, 3.0, [0.0; 2], 1);
     let start = BLOCK.replace("0.12", "0.2").replace("0.1\n", "0.15\n").replace("20 kN", "30 kN");
     let fit = ["slider.static_friction", "slider.kinetic_friction", "slider.spring"];
@@ -181,7 +181,7 @@ fn covered_by_noisy_table(seeds: u64) -> Vec<(&'static str, u64)> {
 
 /// An LVDT that shows 12.3 mm at rest became 8.6 mrad of tilt where 1.0 was true.
 #[test]
-fn exact_an_offset_of_a_sensor_is_no_tilt() {
+fn an_offset_of_a_sensor_is_no_tilt() {
     let fit = ["slider.kinetic_friction", "slider.tilt"];
     let plain = fitted(&made_by(TILTED, 3.0, [0.05, 3e-4], 1, [0.0; 2], 5), TILTED, &fit, 1);
     let off = fitted(&made_by(TILTED, 3.0, [0.05, 3e-4], 1, [0.0123, 0.0], 5), TILTED, &fit, 1);
@@ -201,7 +201,7 @@ fn exact_an_offset_of_a_sensor_is_no_tilt() {
 /// The sum of squares falls by a little in the first small steps from the best values: twenty new
 /// starts came no further than that, and the interval was refused.
 #[test]
-fn exact_a_sum_of_squares_that_jumps_has_its_intervals() {
+fn a_sum_of_squares_that_jumps_has_its_intervals() {
     for seed in [10, 166] {
         let measured = made_by(BLOCK, 3.0, [0.02, 1e-4], seed, [0.0, 0.05], 5);
         let found = fitted(&measured, BLOCK, &["slider.kinetic_friction", "slider.spring"], seed);
@@ -212,7 +212,7 @@ fn exact_a_sum_of_squares_that_jumps_has_its_intervals() {
 /// The best values stand between two cliffs, where an event passes a sample: there was no width left,
 /// and nothing was added to it.
 #[test]
-fn exact_a_minimum_between_two_cliffs_is_not_taken_as_certain() {
+fn a_minimum_between_two_cliffs_is_not_taken_as_certain() {
     let measured = made_by(BLOCK, 3.0, [0.02, 1e-4], 188, [0.0, 0.05], 5);
     let found = fitted(&measured, BLOCK, &["slider.kinetic_friction", "slider.spring"], 188);
     for (estimate, truth) in found.estimates.iter().zip([0.1, 20e3]) {
@@ -295,7 +295,7 @@ fn prop_intervals_cover() {
 }
 
 #[test]
-fn exact_a_record_without_sliding_is_refused() {
+fn a_record_without_sliding_is_refused() {
     for seed in 0..12 {
         assert!(silent_is_refused(seed), "{seed}");
     }
@@ -339,7 +339,7 @@ fn coverage_shaking_table_refused() {
 }
 
 #[test]
-fn exact_what_has_no_effect_is_refused_and_the_rest_is_told() {
+fn what_has_no_effect_is_refused_and_the_rest_is_told() {
     // A damper without speed to speak of, beside a spring that shows.
     let measured = made(BLOCK, 3.0, [0.05, 3e-4], 5);
     let found = fitted(&measured, BLOCK, &["slider.kinetic_friction", "slider.tilt"], 5);
@@ -350,7 +350,7 @@ fn exact_what_has_no_effect_is_refused_and_the_rest_is_told() {
 }
 
 #[test]
-fn exact_ranges() {
+fn parameters_have_their_ranges() {
     let analysis = parse("m.toml", BLOCK, &[]).unwrap();
     let range = |text: &str| {
         let p = Parameter::parse(text, &analysis, &[text]).map_err(|e| e.to_string())?;

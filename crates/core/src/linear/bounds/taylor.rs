@@ -29,7 +29,7 @@ fn prop_rates_bound_the_system() {
 
 /// (g) One storey without damping, and a rigid block on a spring, turn at just their rate.
 #[test]
-fn exact_rates_are_reached() {
+fn rates_are_reached() {
     let none = StoreyDamping::Ratio(0.0);
     let storey = System::new(325.0, 0.0, 0.0, &[201.0], &[36_700.0], none);
     let stretched = State(vec![0.0, 0.0, 1.0, 0.0]);
@@ -153,7 +153,7 @@ fn prop_truncation_is_below_rounding() {
 
 /// (f) One storey without damping leaves out just that much.
 #[test]
-fn exact_truncation_is_reached() {
+fn truncation_is_reached() {
     let system = System::new(325.0, 0.0, 0.0, &[201.0], &[36_700.0], StoreyDamping::Ratio(0.0));
     let length_s = MAX_RATE_STEP / system.stick_rate_rad_per_s;
     let x = State(vec![0.0, 0.0, 0.3, -2.0]);

@@ -109,7 +109,7 @@ mod tests {
 
     /// a = t over [0, 1]: ∫a² = t³/3, so the share p is reached at p^(1/3).
     #[test]
-    fn exact_significant_duration_of_a_ramp() {
+    fn significant_duration_of_a_ramp() {
         let m = motion(&[0.0, 1.0], &[0.0, 1.0]);
         close(significant(&m, 0.05, 0.95), libm::cbrt(0.95) - libm::cbrt(0.05));
         close(significant(&m, 0.05, 0.75), libm::cbrt(0.75) - libm::cbrt(0.05));
@@ -120,20 +120,20 @@ mod tests {
 
     /// Through zero: a = 1 − t over [0, 2] has ∫a² = (1 − (1 − t)³)/3.
     #[test]
-    fn exact_significant_duration_through_zero() {
+    fn significant_duration_through_zero() {
         let m = motion(&[0.0, 2.0], &[1.0, -1.0]);
         close(significant(&m, 0.05, 0.95), 2.0 * libm::cbrt(0.9));
     }
 
     #[test]
-    fn exact_significant_duration_of_constant_and_zero() {
+    fn significant_duration_of_constant_and_zero() {
         close(significant(&motion(&[0.0, 4.0], &[2.0, 2.0]), 0.05, 0.95), 3.6);
         assert_eq!(significant(&motion(&[0.0, 4.0], &[0.0, 0.0]), 0.05, 0.95), 0.0);
     }
 
     /// From 2 to −3 over 5 s, above 1 in the first and the last two seconds.
     #[test]
-    fn exact_crossings_of_a_threshold() {
+    fn crossings_of_a_threshold() {
         let m = motion(&[0.0, 1.0, 6.0, 6.0, 8.0], &[0.0, 2.0, -3.0, 0.0, 0.0]);
         let found = above(&m, 1.0);
         close(found.bracketed_s, 5.5);
@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_one_sided_limit_of_a_jump_takes_no_time() {
+    fn one_sided_limit_of_a_jump_takes_no_time() {
         let m = motion(&[0.0, 1.0, 1.0, 2.0], &[0.0, 0.0, 5.0, 5.0]);
         close(above(&m, 1.0).bracketed_s, 1.0);
         close(above(&m, 1.0).uniform_s, 1.0);

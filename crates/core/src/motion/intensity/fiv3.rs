@@ -252,7 +252,7 @@ mod tests {
     /// extreme but those of the overshoot; a pulse much longer than the filter's memory has one
     /// maximum, close to 2 times the window.
     #[test]
-    fn exact_no_extreme_and_one() {
+    fn no_extreme_and_one() {
         let quiet = GroundMotion::evenly_spaced(0.1, vec![0.0; 100], None).unwrap();
         assert_eq!(fiv3(&quiet, 1.0, 0.7, 0.85), 0.0);
         let short = GroundMotion::evenly_spaced(0.1, vec![0.0, 1.0, 0.0], None).unwrap();
@@ -263,7 +263,7 @@ mod tests {
     /// that three of each make six times A/ω sin(ωαT/2). The gain is that of the second order,
     /// 1/√(1 + (f/f_c)⁴).
     #[test]
-    fn exact_slow_sine() {
+    fn slow_sine() {
         let (period_s, amplitude) = (10.0, 1.5);
         let omega = TAU / period_s;
         // It grows into its amplitude from below, so that the last extremes are the largest.
@@ -282,7 +282,7 @@ mod tests {
 
     /// Subdividing the motion changes nothing.
     #[test]
-    fn exact_subdivided_motion() {
+    fn subdivided_motion() {
         let a: Vec<f64> = (0..300).map(|k| libm::sin(f64::from(k * k))).collect();
         let fine: Vec<f64> = a
             .windows(2)

@@ -99,7 +99,7 @@ mod tests {
 
     /// a = 1 − t over 2 s: ∫a² = 2/3, ∫|a| = 1.
     #[test]
-    fn exact_sign_change_inside_a_piece() {
+    fn sign_change_inside_a_piece() {
         let m = motion(&[0.0, 2.0], &[1.0, -1.0]);
         close(arias(&m), PI / (2.0 * 9.80665) * 2.0 / 3.0);
         close(cav(&m), 1.0);
@@ -109,7 +109,7 @@ mod tests {
 
     /// Jumps take no time, and the sampling of a straight line does not matter.
     #[test]
-    fn exact_jumps_and_subdivision() {
+    fn jumps_and_subdivision() {
         close(cav(&motion(&[0.0, 1.0, 1.0, 2.0], &[1.0, 1.0, -1.0, -1.0])), 2.0);
         let fine: Vec<f64> = (0..=70).map(|i| f64::from(i) / 35.0).collect();
         let values: Vec<f64> = fine.iter().map(|t| 1.0 - t).collect();
@@ -121,7 +121,7 @@ mod tests {
     /// 1 m/s² in the second of four seconds, which one piece spans as well; 0.2 in the fourth is
     /// below 0.025 g = 0.245, in the fifth, half a second long, 0.3 is above.
     #[test]
-    fn exact_windows_of_standardised_cav() {
+    fn windows_of_standardised_cav() {
         let m = motion(
             &[0.0, 1.0, 1.0, 2.0, 2.0, 4.0, 4.0, 4.5],
             &[0.0, 0.0, 1.0, 1.0, 0.2, 0.2, 0.3, 0.3],

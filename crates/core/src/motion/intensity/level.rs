@@ -124,7 +124,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_names_of_measures_of_pairs() {
+    fn names_of_measures_of_pairs() {
         for text in ["RotD50(1.2 s)", "RotD100(0.5 s, 2 %)", "RotD00(PGA)", "Sa(1.2 s)", "PGV"] {
             assert_eq!(LevelMeasure::parse(text).unwrap().to_string(), text);
         }
@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_measures_of_a_pair() {
+    fn measures_of_a_pair() {
         let motion = |a: &[f64]| GroundMotion::evenly_spaced(0.5, a.to_vec(), None).unwrap();
         let (x, y) = (motion(&[0.0, 4.0, 0.0, 0.0]), motion(&[0.0, 0.0, 1.0, 0.0]));
         let of = |text: &str, other| LevelMeasure::parse(text).unwrap().of(&x, other).unwrap();

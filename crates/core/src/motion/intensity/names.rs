@@ -314,7 +314,7 @@ mod tests {
     ];
 
     #[test]
-    fn exact_names_and_columns() {
+    fn names_and_columns() {
         for (text, name, column) in ALL {
             let measure = Measure::parse(text).unwrap();
             assert_eq!((measure.to_string().as_str(), measure.column().as_str()), (name, column));
@@ -323,7 +323,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_messages_say_what_to_write() {
+    fn messages_say_what_to_write() {
         for (text, message) in [
             ("PGX", "found \"PGX\"; nearest is \"PGA\""),
             ("PGA(1 s)", "expected no parameters, found \"PGA(1 s)\""),

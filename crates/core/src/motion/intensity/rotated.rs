@@ -102,7 +102,7 @@ mod tests {
 
     /// A motion along one line: |cos φ| of it in every direction.
     #[test]
-    fn exact_rotated_single_component() {
+    fn rotated_single_component() {
         let x = GroundMotion::evenly_spaced(0.5, vec![0.0, 3.0, -1.0, 0.0], None).unwrap();
         let y = GroundMotion::evenly_spaced(0.5, vec![0.0; 4], None).unwrap();
         let rotated = RotD::of(&Measure::Pga, &x, &y).unwrap();
@@ -115,7 +115,7 @@ mod tests {
 
     /// A motion that turns has the same peak in every direction, but for its sampling.
     #[test]
-    fn exact_rotated_circle() {
+    fn rotated_circle() {
         let angle = |k: u32| f64::from(k) * core::f64::consts::TAU / 3600.0;
         let x: Vec<f64> = (0..=7200).map(|k| libm::cos(angle(k))).collect();
         let y: Vec<f64> = (0..=7200).map(|k| libm::sin(angle(k))).collect();
@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_rotated_spectra_are_those_of_every_ordinate() {
+    fn rotated_spectra_are_those_of_every_ordinate() {
         let wave = |k: f64, phase: f64| libm::sin(0.3 * k + phase) * libm::exp(-0.02 * k);
         let of = |phase: f64| {
             let a = (0..100).map(|k| wave(f64::from(k), phase)).collect();

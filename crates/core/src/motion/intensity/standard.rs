@@ -95,7 +95,7 @@ mod tests {
 
     /// The set and the measures one by one are one thing.
     #[test]
-    fn exact_set_is_the_measures() {
+    fn set_is_the_measures() {
         let motion = noise();
         for (measure, column, value) in IntensityMeasures::of(&motion).columns() {
             assert_eq!(measure.of(&motion), value, "{measure}");
@@ -105,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_zero_motion_has_zero_of_everything() {
+    fn zero_motion_has_zero_of_everything() {
         let motion = GroundMotion::evenly_spaced(0.01, vec![0.0; 300], None).unwrap();
         assert_eq!(IntensityMeasures::of(&motion), IntensityMeasures::default());
         for text in ["Sa(1 s)", "PSa(1 s)", "Sa_avg(0.1 s, 1 s)", "FIV3(1 s)"] {
@@ -115,7 +115,7 @@ mod tests {
 
     /// What scales, scales; what does not, does not.
     #[test]
-    fn exact_scaling_of_measures() {
+    fn scaling_of_measures() {
         let motion = noise();
         let double = motion.scaled(2.0).unwrap();
         let others = ["Sa(0.4 s)", "PSa(0.4 s)", "Sa_avg(0.1 s, 1 s)", "FIV3(0.5 s)"];

@@ -258,7 +258,7 @@ mod tests {
 
     /// The Butterworth gain 1/√(1 + (Ω/Ω_c)^2n), Ω = tan(π f Δt): at corners 1/√2.
     #[test]
-    fn exact_gain_is_butterworths() {
+    fn gain_is_butterworths() {
         let dt_s = 0.01;
         let warped = |hz: f64| libm::tan(PI * hz * dt_s);
         for order in 1..=10 {
@@ -283,7 +283,7 @@ mod tests {
 
     /// A constant passes a low-pass filter untouched and no other, from the first sample on.
     #[test]
-    fn exact_constant() {
+    fn a_constant_passes_low_and_is_stopped_high() {
         let s = Series::evenly_spaced(0.01, vec![3.0; 200], Quantity::Acceleration).unwrap();
         for order in [1, 2, 3, 4, 7] {
             let largest = |band, shift: f64| {
@@ -297,7 +297,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_what_cannot_be_filtered() {
+    fn what_cannot_be_filtered() {
         let band = Band::Low { corner_hz: 5.0 };
         let short = Series::evenly_spaced(0.01, vec![1.0; 15], Quantity::Acceleration).unwrap();
         assert!(filter(&short, band, 4).is_err());

@@ -198,7 +198,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_steps_are_printed_as_they_are_written() {
+    fn steps_are_printed_as_they_are_written() {
         for (written, printed) in [
             ("remove mean", "remove mean"),
             ("remove polynomial 0", "remove mean"),
@@ -220,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_messages_say_what_to_write() {
+    fn messages_say_what_to_write() {
         for (written, message) in [
             ("bandpass 1 Hz 2 Hz", "nearest is \"band-pass\""),
             ("band-pass 2 Hz 1 Hz", "expected two corner frequencies, the lower first"),

@@ -82,7 +82,7 @@ mod tests {
 
     /// a = 6t − 2 is one straight line: v = 3t² − 2t, u = t³ − t² at any samples.
     #[test]
-    fn exact_integrals_of_a_line() {
+    fn integrals_of_a_line() {
         let times: Vec<f64> = [0.0, 0.1, 0.4, 0.5, 1.2, 2.0].to_vec();
         let a = times.iter().map(|t| 6.0 * t - 2.0).collect();
         let a = Series::new(times, a, Acceleration).unwrap();
@@ -93,7 +93,7 @@ mod tests {
 
     /// A parabola's derivatives are exact, uneven samples and ends included.
     #[test]
-    fn exact_derivatives_of_a_parabola() {
+    fn derivatives_of_a_parabola() {
         let times: Vec<f64> = [0.0, 0.1, 0.4, 0.5, 1.2, 2.0].to_vec();
         let u = times.iter().map(|t| 3.0 * t * t - t + 2.0).collect();
         let u = Series::new(times, u, Displacement).unwrap();
@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_jump_has_no_derivative() {
+    fn a_jump_has_no_derivative() {
         let u = Series::new(vec![0.0, 1.0, 1.0, 2.0], vec![0.0; 4], Velocity).unwrap();
         assert!(matches!(to(&u, Acceleration), Err(MotionError::TimeOrder { index: 2, .. })));
     }

@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_taper_at_quarters() {
+    fn taper_at_quarters() {
         let s = taper(&even(1.0, &[2.0; 9]), 0.25).unwrap();
         let expected = [0.0, 1.0, 2.0, 2.0, 2.0, 2.0, 2.0, 1.0, 0.0];
         for (found, expected) in s.values().iter().zip(expected) {
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_resampled_along_the_lines() {
+    fn resampled_along_the_lines() {
         let s = even(1.0, &[0.0, 4.0, 0.0]);
         assert_eq!(resample(&s, 0.5).unwrap().values(), [0.0, 2.0, 4.0, 2.0, 0.0]);
         assert_eq!(resample(&s, 1.0).unwrap(), s);
@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_trimmed_at_and_between_samples() {
+    fn trimmed_at_and_between_samples() {
         let s = even(1.0, &[0.0, 4.0, 0.0, -8.0]);
         let whole = trim(&s, 1.0, 3.0).unwrap();
         assert_eq!((whole.values(), whole.dt_s()), (&[4.0, 0.0, -8.0][..], Some(1.0)));

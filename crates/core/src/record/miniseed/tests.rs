@@ -21,7 +21,7 @@ fn frame(codes: &[u32], words: &[u32], order: Order) -> Vec<u8> {
 /// By hand: from 100, differences of four bytes, two halves and one word; the first one is of the
 /// record before and leads nowhere.
 #[test]
-fn exact_steim1_by_hand() {
+fn steim1_by_hand() {
     let words = [100, (-30_000_i32).cast_unsigned(), 0x7F01_FF80, 0x0100_FF00, 0xFFFF_8A3A];
     let data = frame(&[0, 0, 1, 2, 3], &words, Order::Big);
     // 127 (unused), +1, −1, −128; +256, −256; −30150.
@@ -37,7 +37,7 @@ fn exact_steim1_by_hand() {
 
 /// By hand: every division that Steim 2 knows, with the largest and least of each.
 #[test]
-fn exact_steim2_by_hand() {
+fn steim2_by_hand() {
     let ones = u32::MAX;
     let words = [
         (-7_i32).cast_unsigned(),
@@ -92,7 +92,7 @@ fn exact_steim2_by_hand() {
 }
 
 #[test]
-fn exact_times() {
+fn start_times_are_read() {
     let at = |year, day, hour| nanoseconds(year, day, [hour, 0, 0], 5);
     assert_eq!(at(1970, 1, 0), Some(5));
     // `date -u -d 2000-03-01 +%s`; 2000 was a leap year, 1900 was none.
@@ -123,7 +123,7 @@ fn counts(bytes: &[u8]) -> Result<Record, RecordError> {
 }
 
 #[test]
-fn exact_rates() {
+fn sample_rates_are_read() {
     for (rate, dt_s) in [
         ([100, 1], 0.01),
         ([50, 2], 0.01),
@@ -144,7 +144,7 @@ fn exact_rates() {
 
 /// Records at 100 Hz of three samples each: 0.0001 s is the unit of their times.
 #[test]
-fn exact_gaps_overlaps_order_and_repetitions() {
+fn gaps_overlaps_order_and_repetitions() {
     let at = |start, samples: [i16; 3]| record(start, &samples, 2000, [100, 1]);
     let join = |records: &[Vec<u8>]| counts(&records.concat()).unwrap();
     let kinds = |record: &Record, i: usize| -> Vec<&str> {
@@ -184,7 +184,7 @@ fn exact_gaps_overlaps_order_and_repetitions() {
 }
 
 #[test]
-fn exact_what_a_record_must_have() {
+fn what_a_record_must_have() {
     let bytes = record(0, &[1, 2, 3], 2000, [100, 1]);
     let changed = |at: usize, byte: u8| {
         let mut bytes = bytes.clone();
@@ -239,7 +239,7 @@ fn exact_what_a_record_must_have() {
 
 /// Counts become what the caller says one is; a different step is refused.
 #[test]
-fn exact_counts_and_their_value() {
+fn counts_and_their_value() {
     let bytes = record(0, &[0, -200, 50], 2000, [100, 1]);
     let record = counts(&bytes).unwrap();
     assert_eq!(record.describe(&record.channels[0]), "MiniSEED 2, 3 values, 0.01 s, counts");

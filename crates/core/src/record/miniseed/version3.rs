@@ -109,7 +109,7 @@ mod tests {
     /// The check value of the polynomial's catalogue, over nine digits; four bytes that count as
     /// zero lie past them.
     #[test]
-    fn exact_check_value() {
+    fn check_value() {
         assert_eq!(castagnoli(b"123456789"), 0xE306_9283);
         let mut record = [7; 40];
         let sum = castagnoli(&record);
@@ -120,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_identifiers() {
+    fn source_identifiers_are_taken_apart() {
         assert_eq!(short_id("FDSN:CI_CLC__H_N_E"), "CI.CLC..HNE");
         assert_eq!(short_id("FDSN:XX_A_B"), "FDSN:XX_A_B");
     }

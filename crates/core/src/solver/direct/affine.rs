@@ -410,7 +410,7 @@ mod tests {
 
     /// Proof (o): unloaded, what is stuck and what slides feed nothing; without dampers nothing is lost.
     #[test]
-    fn exact_energy_norm_does_not_grow_in_any_assignment() {
+    fn energy_norm_does_not_grow_in_any_assignment() {
         for damper in [0.0, 300.0] {
             let model = model(damper);
             let k = model.slider_stiffness_n_per_m();
@@ -436,7 +436,7 @@ mod tests {
 
     /// Proof (o): no state of energy norm 1 makes an output larger than its dual norm, and one reaches it.
     #[test]
-    fn exact_dual_norms_of_outputs_hold_and_are_reached() {
+    fn dual_norms_of_outputs_hold_and_are_reached() {
         let model = model(50.0);
         let k = model.slider_stiffness_n_per_m();
         each(&model, |run, course| {

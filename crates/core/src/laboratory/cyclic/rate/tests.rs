@@ -174,7 +174,7 @@ fn covers(estimate: &Estimate) -> bool {
 }
 
 #[test]
-fn exact_without_noise() {
+fn without_noise() {
     for fits in [
         tests(&Drag::sine([0.0; 4]), &SINES_HZ, 1),
         tests(&Drag { offset_n: 40.0, ..Drag::sine([0.0; 4]) }, &SINES_HZ, 1),
@@ -262,7 +262,7 @@ fn silent_is_refused(seed: u64) -> bool {
 }
 
 #[test]
-fn exact_what_cannot_be_told_is_refused() {
+fn what_cannot_be_told_is_refused() {
     for seed in 0..8 {
         assert!(silent_is_refused(seed), "{seed}");
     }
@@ -286,7 +286,7 @@ fn exact_what_cannot_be_told_is_refused() {
 
 /// `M^(−1/2)` twice is the inverse.
 #[test]
-fn exact_inverse_root() {
+fn the_square_of_an_inverse_root_is_the_inverse() {
     let root = inverse_root(vec![vec![2.0, 1.0], vec![1.0, 2.0]]).unwrap();
     let square = |i: usize, j: usize| root[i][0] * root[0][j] + root[i][1] * root[1][j];
     for (i, j, expected) in [(0, 0, 2.0 / 3.0), (0, 1, -1.0 / 3.0), (1, 1, 2.0 / 3.0)] {
