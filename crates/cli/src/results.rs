@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use slipstick::requests::Answer;
 use slipstick::table::Table;
 use slipstick_files::{OutputFolder, SourceFile, TextFile, to_csv, to_parquet};
-use slipstick_report::assessment::{Sheet, Went, answer};
+use slipstick_report::assessment::{Provenance, Sheet, answer};
 use slipstick_report::{FileNote, InputText, report};
 
 use crate::args::ResultArgs;
@@ -67,9 +67,10 @@ pub fn conclude(
             .collect();
         let inputs: Vec<InputText> =
             inputs.iter().map(|(path, text)| InputText { path, text }).collect();
-        let went = Went { command_line: &command_line(), files: &files, inputs: &inputs };
+        let provenance =
+            Provenance { command_line: &command_line(), files: &files, inputs: &inputs };
         folder.write(json, sheet.to_json().as_bytes())?;
-        folder.write("report.html", sheet.to_html(&went).as_bytes())?;
+        folder.write("report.html", sheet.to_html(&provenance).as_bytes())?;
         for (name, text) in more {
             folder.write(name, text.as_bytes())?;
         }

@@ -103,7 +103,8 @@ fn time(case: &Case, what: &str, count: usize) -> Result<String, Box<dyn Error>>
     let mut nanoseconds = Vec::with_capacity(count);
     let motion = PreparedMotion::new(case.motion.clone());
     let model = Arc::new(case.model()?);
-    let (prepared, mut room) = (Prepared::new(model.clone(), motion.dt_s()), Workspace::default());
+    let (prepared, mut workspace) =
+        (Prepared::new(model.clone(), motion.dt_s()), Workspace::default());
     for _ in 0..count {
         let clock = Instant::now();
         match what {
@@ -117,7 +118,7 @@ fn time(case: &Case, what: &str, count: usize) -> Result<String, Box<dyn Error>>
                 black_box(solver::exact_demands(&case.model()?, &case.motion)?);
             }
             "prepared" => {
-                black_box(prepared.demands_in(&mut room, &motion)?);
+                black_box(prepared.demands_in(&mut workspace, &motion)?);
             }
             "history" => {
                 black_box(solver::exact(&case.model()?, &case.motion)?);

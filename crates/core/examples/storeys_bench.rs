@@ -83,9 +83,9 @@ fn main() -> Result<(), Box<dyn Error>> {
                 }
             }
             Some((.., count)) => {
-                let mut room = Workspace::default();
+                let mut workspace = Workspace::default();
                 for _ in 0..count {
-                    black_box(prepared.demands_in(&mut room, motion)?);
+                    black_box(prepared.demands_in(&mut workspace, motion)?);
                 }
             }
         }
@@ -101,9 +101,10 @@ fn measure(
 ) -> Result<(), Box<dyn Error>> {
     let response = prepared.demands(motion)?;
     let samples = motion.motion().len();
-    let mut room = Workspace::default();
-    let demands =
-        least(|| prepared.demands_in(&mut room, motion).map(|response| drop(black_box(response))))?;
+    let mut workspace = Workspace::default();
+    let demands = least(|| {
+        prepared.demands_in(&mut workspace, motion).map(|response| drop(black_box(response)))
+    })?;
     let history = least(|| prepared.response(motion).map(|response| drop(black_box(response))))?;
     let checked = least(|| {
         let response = prepared.response(motion)?;
@@ -146,11 +147,13 @@ fn of_pairs(folder: &Path) -> Result<(), Box<dyn Error>> {
         for pair in files.chunks_exact(2) {
             let along_x = motion(&pair[0])?;
             let (both, _) = along_x.with_along_y(&motion(&pair[1])?)?;
-            let mut room = Workspace::default();
+            let mut workspace = Workspace::default();
             let [along_x, both] = [along_x, both].map(PreparedMotion::new);
             let mut time = |motion: &PreparedMotion| -> Result<Duration, SolveError> {
                 let prepared = Prepared::new(model.clone(), motion.dt_s());
-                least(|| prepared.demands_in(&mut room, motion).map(|one| drop(black_box(one))))
+                least(|| {
+                    prepared.demands_in(&mut workspace, motion).map(|one| drop(black_box(one)))
+                })
             };
             let times = [time(&both)?, time(&along_x)?].map(|time| time.as_nanos());
             let response = Prepared::new(model.clone(), both.dt_s()).demands(&both)?;

@@ -1,4 +1,4 @@
-//! A run in room that another has left allocates its answer and nothing else.
+//! A run in workspace that another has left allocates its answer and nothing else.
 
 // Helpers of tests may panic as tests do.
 #![allow(clippy::unwrap_used)]
@@ -33,10 +33,11 @@ fn a_run_allocates_its_answer_alone() {
     for motion in &motions {
         for (storeys, tilt_rad) in [(0, 0.0), (1, 0.0), (1, 0.01), (2, 0.0), (5, 0.01)] {
             let prepared = Prepared::new(model(storeys, tilt_rad), motion.dt_s());
-            let mut room = Workspace::default();
-            let first = prepared.demands_in(&mut room, motion).unwrap();
+            let mut workspace = Workspace::default();
+            let first = prepared.demands_in(&mut workspace, motion).unwrap();
             let mut again = None;
-            let made = measure(|| again = Some(prepared.demands_in(&mut room, motion).unwrap()));
+            let made =
+                measure(|| again = Some(prepared.demands_in(&mut workspace, motion).unwrap()));
             assert_eq!(again.as_ref(), Some(&first));
             assert!(first.events.len() > 20, "{} events", first.events.len());
             // The list of events, and that of the storeys' demands.

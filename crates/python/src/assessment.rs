@@ -15,7 +15,7 @@ use slipstick_files::{
     read_target,
 };
 use slipstick_report::DisplayUnits;
-use slipstick_report::assessment::{Sheet, Went, answer};
+use slipstick_report::assessment::{Provenance, Sheet, answer};
 
 use crate::errors::{of_argument, of_assessment, of_file, of_job, warn, warn_severe};
 use crate::model::Model;
@@ -79,8 +79,8 @@ impl Assessment {
     }
 
     fn _report_html(&self) -> String {
-        let went = Went { command_line: self.call, files: &[], inputs: &[] };
-        self.sheet.to_html(&went)
+        let provenance = Provenance { command_line: self.call, files: &[], inputs: &[] };
+        self.sheet.to_html(&provenance)
     }
 }
 

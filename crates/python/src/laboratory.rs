@@ -9,13 +9,13 @@ use slipstick::hash::sha256_hex;
 use slipstick::input::Mapping;
 use slipstick::laboratory::compare::{self, Comparison as Compared, Within};
 use slipstick::laboratory::estimate::Outcome;
-use slipstick::laboratory::identify::{Identified as Found, IdentifyError, ModelText};
+use slipstick::laboratory::identify::{Identified as Estimates, IdentifyError, ModelText};
 use slipstick::laboratory::measured::Measured;
 use slipstick::record::{Column, Columns};
 use slipstick::requests::{Comparing, Kind};
 use slipstick::table;
 use slipstick_files::{SourceFile, TextFile, expand_all, read_mapping, read_measured};
-use slipstick_report::assessment::{Sheet, Went};
+use slipstick_report::assessment::{Provenance, Sheet};
 use slipstick_report::laboratory::identify as told;
 use slipstick_report::{CompareReport, DisplayUnits, FileNote, InputText};
 
@@ -69,14 +69,14 @@ impl Columned {
 }
 
 /// What went in, for the report.
-struct WentIn {
+struct Sources {
     /// Path, hash, and what it is.
     files: Vec<(String, String, &'static str)>,
     /// Name and text.
     texts: Vec<(String, String)>,
 }
 
-impl WentIn {
+impl Sources {
     fn of(model: Option<&Model>, sources: &[Option<SourceFile>], mapping: &Columned) -> Self {
         let shown = |file: &SourceFile| file.path.display().to_string();
         let (mut files, mut texts) = (Vec::new(), Vec::new());
@@ -101,7 +101,7 @@ impl WentIn {
         let files: Vec<FileNote<'_>> = files.collect();
         let inputs = self.texts.iter().map(|(path, text)| InputText { path, text });
         let inputs: Vec<InputText<'_>> = inputs.collect();
-        sheet.to_html(&Went { command_line, files: &files, inputs: &inputs })
+        sheet.to_html(&Provenance { command_line, files: &files, inputs: &inputs })
     }
 }
 
@@ -124,7 +124,7 @@ pub struct Comparison {
     measured: String,
     comparison: Compared,
     within: Vec<Within>,
-    went_in: WentIn,
+    sources_read: Sources,
 }
 
 impl Comparison {
@@ -190,7 +190,7 @@ impl Comparison {
 
     fn _report_html(&self, py: Python<'_>, units: &str) -> PyResult<String> {
         let sheet = self.report(display_units(py, units)?, |report| report.sheet());
-        Ok(self.went_in.page(&sheet, "slipstick.compare(measured, model)"))
+        Ok(self.sources_read.page(&sheet, "slipstick.compare(measured, model)"))
     }
 }
 
@@ -214,7 +214,7 @@ pub(crate) fn compare_with(
         measured: measured.source_name,
         comparison: comparison.map_err(|error| of_compare(py, &error))?,
         within,
-        went_in: WentIn::of(Some(&model), &[source], &columned),
+        sources_read: Sources::of(Some(&model), &[source], &columned),
         model,
     })
 }
@@ -223,9 +223,9 @@ pub(crate) fn compare_with(
 #[pyclass(module = "slipstick._core", frozen)]
 pub struct Identified {
     measured: Vec<Measured>,
-    found: Found,
+    found: Estimates,
     model: Option<Model>,
-    went_in: WentIn,
+    sources_read: Sources,
     call: &'static str,
 }
 
@@ -234,12 +234,12 @@ impl Identified {
         py: Python<'_>,
         call: &'static str,
         measured: Vec<Measured>,
-        found: Result<Found, IdentifyError>,
-        went_in: WentIn,
+        found: Result<Estimates, IdentifyError>,
+        sources_read: Sources,
     ) -> PyResult<Self> {
         let found = found.map_err(|error| of_identify(py, &error))?;
         let model = found.model.clone().map(Model::of);
-        Ok(Self { measured, found, model, went_in, call })
+        Ok(Self { measured, found, model, sources_read, call })
     }
 
     fn sheet(&self, display: DisplayUnits) -> Sheet {
@@ -311,7 +311,7 @@ impl Identified {
     }
 
     fn _report_html(&self, py: Python<'_>, units: &str) -> PyResult<String> {
-        Ok(self.went_in.page(&self.sheet(display_units(py, units)?), self.call))
+        Ok(self.sources_read.page(&self.sheet(display_units(py, units)?), self.call))
     }
 }
 
@@ -348,11 +348,11 @@ pub(crate) fn identify(
     let on = model.as_ref();
     let on = on.map(|model| ModelText { name: &model.source, text: model.text(), set: &[] });
     let found = followed(py, jobs, progress, |engine| asked.identify(on, &measured, engine))?;
-    let went_in = WentIn::of(model.as_ref(), &sources, &columned);
+    let sources_read = Sources::of(model.as_ref(), &sources, &columned);
     let call = match asked.kind() {
         Kind::Cyclic => "slipstick.identify.cyclic(tests)",
         Kind::FreeVibration => "slipstick.identify.free_vibration(measured)",
         _ => "slipstick.identify.shaking_table(measured, model, fit)",
     };
-    Identified::new(py, call, measured, found, went_in)
+    Identified::new(py, call, measured, found, sources_read)
 }

@@ -53,7 +53,7 @@ pub(crate) fn run(
     }
     let start = Instant::now();
     let (of, on) = (model.get(), motion.map(|motion| &motion.get().0));
-    let work = |go_on: GoOn<'_>| -> Result<(OnceLock<OpenJob>, Found), JobError> {
+    let work = |go_on: GoOn<'_>| -> Result<(OnceLock<OpenJob>, Answers), JobError> {
         // Copies of long motions take their time too.
         let ask = || match go_on() {
             ControlFlow::Continue(()) => Ok(()),
@@ -65,7 +65,7 @@ pub(crate) fn run(
             let solved = single::solve_all(analysis, &motion, history, go_on)?;
             let warnings = single::noticed(analysis, on);
             let noticed = solved.first().map(|solved| Summary::noticed(solved, &motion, &warnings));
-            return Ok((OnceLock::new(), Found::Solved(solved, noticed.unwrap_or_default())));
+            return Ok((OnceLock::new(), Answers::Solved(solved, noticed.unwrap_or_default())));
         }
         let analysis = analysis.clone();
         let job = match on {
@@ -84,12 +84,12 @@ pub(crate) fn run(
             if !history {
                 outcome.forget_history();
             }
-            Found::Judged(Box::new((outcome, summary)))
+            Answers::Judged(Box::new((outcome, summary)))
         } else {
             let Job { analysis, motion, warnings, .. } = &job.job;
             let solved = single::solve_all(analysis, motion, history, go_on)?;
             let noticed = solved.first().map(|solved| Summary::noticed(solved, motion, warnings));
-            Found::Solved(solved, noticed.unwrap_or_default())
+            Answers::Solved(solved, noticed.unwrap_or_default())
         };
         Ok((OnceLock::from(job), found))
     };
@@ -113,14 +113,14 @@ pub struct Response {
     motion: Option<Py<Motion>>,
     /// Made of the two when it is asked for, where the analysis did without.
     job: OnceLock<OpenJob>,
-    found: Found,
+    found: Answers,
     /// Of a response that is not judged, when it is asked for.
     summary: OnceLock<Summary>,
     took: Duration,
 }
 
 /// What was asked for.
-enum Found {
+enum Answers {
     /// Responses with their certificates.
     Judged(Box<(Outcome, Summary)>),
     /// Responses alone, at least one, and what is noticed.
@@ -130,8 +130,8 @@ enum Found {
 impl Response {
     fn response(&self) -> Option<&Answer> {
         match &self.found {
-            Found::Judged(of) => Some(&of.0.nominal.response),
-            Found::Solved(solved, _) => solved.first().map(|solved| &solved.response),
+            Answers::Judged(of) => Some(&of.0.nominal.response),
+            Answers::Solved(solved, _) => solved.first().map(|solved| &solved.response),
         }
     }
 
@@ -159,7 +159,7 @@ impl Response {
 
     /// The report of a response with history and certificate.
     fn report<T>(&self, display: DisplayUnits, tell: impl FnOnce(&Report<'_>) -> T) -> PyResult<T> {
-        let Found::Judged(of) = &self.found else { return Err(without("check")) };
+        let Answers::Judged(of) = &self.found else { return Err(without("check")) };
         self.history()?;
         let ((outcome, summary), open) = (&**of, self.job()?);
         let loaded = &open.job.loaded;
@@ -197,8 +197,8 @@ impl Response {
 
     fn summary(&self) -> PyResult<&Summary> {
         let solved = match &self.found {
-            Found::Judged(of) => return Ok(&of.1),
-            Found::Solved(solved, _) => solved,
+            Answers::Judged(of) => return Ok(&of.1),
+            Answers::Solved(solved, _) => solved,
         };
         if let Some(summary) = self.summary.get() {
             return Ok(summary);
@@ -279,7 +279,7 @@ impl Response {
 
     /// Energies at the knots in J.
     fn _energy<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let Found::Judged(of) = &self.found else { return Err(without("check")) };
+        let Answers::Judged(of) = &self.found else { return Err(without("check")) };
         self.history()?;
         let energy = of.0.nominal.certificate.energy();
         let columns = PyDict::new(py);
@@ -327,8 +327,8 @@ impl Response {
     fn _noticed(&self) -> Vec<(&'static str, &str, bool)> {
         let of = |notice: &'_ Notice| notice.severity() == Severity::Severe;
         let noticed = match &self.found {
-            Found::Judged(of) => &of.1.warnings,
-            Found::Solved(_, noticed) => noticed,
+            Answers::Judged(of) => &of.1.warnings,
+            Answers::Solved(_, noticed) => noticed,
         };
         let notices = noticed.iter().filter(|notice| !notice.is_note());
         notices.map(|notice| (notice.kind.name(), &*notice.message, of(notice))).collect()
@@ -344,8 +344,8 @@ impl Response {
     #[getter]
     fn holds(&self) -> Option<bool> {
         match &self.found {
-            Found::Judged(of) => of.1.checks.holds,
-            Found::Solved(..) => None,
+            Answers::Judged(of) => of.1.checks.holds,
+            Answers::Solved(..) => None,
         }
     }
 }

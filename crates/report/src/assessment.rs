@@ -16,4 +16,5 @@ pub mod sensitivity;
 pub(crate) mod sheet;
 pub mod spectrum;
 
-pub use sheet::{Sheet, Table, Went};
+pub use crate::report::Provenance;
+pub use sheet::{Sheet, Table};

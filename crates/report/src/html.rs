@@ -5,6 +5,7 @@ mod results;
 mod verdict;
 
 use crate::VERSION;
+use crate::assessment::Sheet;
 use crate::display::DisplayUnits;
 use crate::figures::{self, Drawn};
 use crate::laboratory::text::is_number;
@@ -14,12 +15,10 @@ use crate::report::Report;
 use crate::summary::method_name;
 use slipstick::notice::{Notice, Severity};
 
-/// The whole page.
-pub fn page(report: &Report) -> String {
+/// One run laid out.
+pub fn sheet(report: &Report) -> Sheet {
     let summary = report.summary;
-    let mut body = Markup::new();
-    verdict::section(&mut body, report);
-    warnings(&mut body, report);
+    let (mut body, mut appendix) = (Markup::new(), Markup::new());
     let all = figures::all(report);
     let (answers, others) = all.split_at(figures::ANSWERS.min(all.len()));
     figure_list(&mut body, answers, 1);
@@ -27,24 +26,23 @@ pub fn page(report: &Report) -> String {
     figure_section(&mut body, "Accelerations, spectra, energy", others, answers.len() + 1);
     results::certificate(&mut body, report);
     inputs::assumptions(&mut body, report);
-    appendix(&mut body);
-    inputs::section(&mut body, report);
-    results::events(&mut body, report);
-    inputs::provenance(&mut body, report.files, report.command_line, report.inputs);
-    body.raw("</section>\n");
-    document(&Frame {
+    inputs::section(&mut appendix, report);
+    results::events(&mut appendix, report);
+    let (of_runs, warnings): (Vec<_>, Vec<&Notice>) = summary.all_warnings().into_iter().unzip();
+    let (method, record) = (method_name(summary.method), report.record);
+    Sheet {
         kind: "Sliding response analysis",
-        name: &summary.model,
-        line: &format!(
-            "Slipstick {}, {} method{}; ground motion: {}",
-            summary.slipstick,
-            method_name(summary.method),
-            summary.model_hash.as_ref().map_or(String::new(), |hash| format!(", model {hash}")),
-            report.record
-        ),
-        command_line: report.command_line,
-        body: &body,
-    })
+        name: summary.model.clone(),
+        model_hash: summary.model_hash.clone(),
+        line: format!("By the {method} method; ground motion: {record}"),
+        verdict: verdict::sentences(report),
+        failed: summary.check_failed(),
+        warnings: warnings.into_iter().cloned().collect(),
+        of_runs,
+        display: report.display,
+        laid_out: [body, appendix],
+        ..Sheet::default()
+    }
 }
 
 /// What stands around the body of a page.
@@ -101,11 +99,6 @@ fn page_margins(out: &mut Markup, frame: &Frame) {
         .raw("; }\n  @bottom-right { content: counter(page) \" / \" counter(pages); }\n}\n");
 }
 
-fn warnings(out: &mut Markup, report: &Report) {
-    let all = report.summary.all_warnings();
-    warning_list(out, &all, report.display);
-}
-
 /// Warnings, each with the run it belongs to, or a line that says there are none; then notes.
 pub(crate) fn warning_list(
     out: &mut Markup,
@@ -143,11 +136,6 @@ fn told(out: &mut Markup, warnings: &[(Option<&'static str>, &Notice)], display:
         out.raw(": ").text(display.sentence(&warning.message)).raw("</li>\n");
     }
     out.raw("</ul>\n");
-}
-
-/// Opens the last section: what went in, and what is too long to stand before.
-pub(crate) fn appendix(out: &mut Markup) {
-    out.raw("<section class=\"appendix\">\n<h2>Appendix</h2>\n");
 }
 
 /// A section of numbered figures; nothing where there are none.

@@ -54,6 +54,17 @@ pub struct Report<'a> {
     pub display: DisplayUnits,
 }
 
+/// What a result was made from.
+#[derive(Clone, Copy, Debug)]
+pub struct Provenance<'a> {
+    /// The command as it was typed.
+    pub command_line: &'a str,
+    /// Files read, with their hashes.
+    pub files: &'a [FileNote<'a>],
+    /// Texts that people wrote.
+    pub inputs: &'a [InputText<'a>],
+}
+
 /// A text that a person wrote.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct InputText<'a> {
@@ -79,6 +90,7 @@ impl Report<'_> {
     /// day, and complete without its script, which says values under the pointer. Prints on A4.
     #[must_use]
     pub fn to_html(&self) -> String {
-        html::page(self)
+        let Self { command_line, files, inputs, .. } = *self;
+        html::sheet(self).to_html(&Provenance { command_line, files, inputs })
     }
 }

@@ -111,7 +111,7 @@ pub fn sweep_row(value: f64, demands: &Demands) -> [f64; 6] {
 }
 
 /// A judged response, from which files are made.
-pub struct Made<'a> {
+pub struct JudgedRun<'a> {
     /// Model and motion.
     pub job: &'a Job,
     /// What was understood of the records.
@@ -122,7 +122,7 @@ pub struct Made<'a> {
     pub summary: &'a Summary,
 }
 
-impl Made<'_> {
+impl JudgedRun<'_> {
     /// The file of a name.
     pub fn file(
         &self,

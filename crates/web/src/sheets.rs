@@ -21,7 +21,7 @@ use slipstick::study::{Case, Record, Study};
 use slipstick::table::Table;
 use slipstick_report::DisplayUnits;
 use slipstick_report::assessment::answer::Tabled;
-use slipstick_report::assessment::{Sheet, Went, answer};
+use slipstick_report::assessment::{Provenance, Sheet, answer};
 use slipstick_report::json::Json;
 use slipstick_report::study::StudyReport;
 use slipstick_report::{FileNote, InputText, report};
@@ -123,9 +123,15 @@ impl Page {
             ("records", Json::List(again.records.iter().map(record).collect())),
         ]);
         let command_line = again.commands.last().map_or("", String::as_str);
-        let (went, out) = (Went { command_line, files, inputs }, exported.unwrap_or(sheet));
+        let (provenance, out) =
+            (Provenance { command_line, files, inputs }, exported.unwrap_or(sheet));
         let tables = again.tables.to_pretty();
-        Self { state: state.to_pretty(), html: out.to_html(&went), json: out.to_json(), tables }
+        Self {
+            state: state.to_pretty(),
+            html: out.to_html(&provenance),
+            json: out.to_json(),
+            tables,
+        }
     }
 }
 

@@ -66,7 +66,7 @@ impl Session {
         let last = self.last.as_mut().ok_or_else(nothing)?;
         let (outcome, summary) = last.judged.as_ref().ok_or_else(nothing)?;
         let hashes = files_of_motion(&self.records, &last.job.analysis);
-        let made = judged::Made { job: &last.job, words: &last.words, outcome, summary };
+        let made = judged::JudgedRun { job: &last.job, words: &last.words, outcome, summary };
         Ok(made.file(name, text, command, &hashes, last.display)?)
     }
 

@@ -11,7 +11,7 @@ use slipstick_files::{
     FileError, OpenStudy, OutputFolder, STUDY_REPORT, Shard, StudyError, clear, conclude, estimate,
     has_parts, kept_runs, merge, on_threads, part_rows, quoted, read_bytes,
 };
-use slipstick_report::assessment::Went;
+use slipstick_report::assessment::Provenance;
 use slipstick_report::number::count;
 use slipstick_report::study::{StudyReport, said, table};
 use slipstick_report::{FileNote, InputText};
@@ -161,9 +161,9 @@ fn report(
         .zip(&study.inputs)
         .map(|(text, (path, _))| InputText { path, text })
         .collect();
-    let went = Went { command_line: &command_line(), files: &files, inputs: &inputs };
+    let provenance = Provenance { command_line: &command_line(), files: &files, inputs: &inputs };
     let mut folder = OutputFolder::create(out, &[])?;
-    folder.write(STUDY_REPORT, page.sheet().to_html(&went).as_bytes())?;
+    folder.write(STUDY_REPORT, page.sheet().to_html(&provenance).as_bytes())?;
     Ok(folder.commit()?)
 }
 

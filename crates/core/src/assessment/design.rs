@@ -73,7 +73,7 @@ pub struct Point {
 
 /// What a search found.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Found {
+pub struct SearchResult {
     /// The front, by rising displacement; the last has the least acceleration.
     pub front: Vec<Point>,
     /// Runs made, of designs × records.
@@ -84,7 +84,7 @@ pub struct Found {
     pub nearest: Option<Point>,
 }
 
-impl Found {
+impl SearchResult {
     /// The feasible design with the least acceleration, and of those the least displacement.
     #[must_use]
     pub fn chosen(&self) -> Option<Point> {
@@ -156,14 +156,14 @@ pub fn search<E: From<FitError>>(
     designs: usize,
     records: usize,
     mut run: impl FnMut(&[(usize, usize)]) -> Result<Vec<Demand>, E>,
-) -> Result<Found, E> {
+) -> Result<SearchResult, E> {
     target.check()?;
     for (what, found) in [("designs", designs), ("records", records)] {
         if found == 0 {
             return Err(FitError::TooFew { what, expected: 1, found }.into());
         }
     }
-    let mut found = Found { front: Vec::new(), runs: 0, beyond_gap: 0, nearest: None };
+    let mut found = SearchResult { front: Vec::new(), runs: 0, beyond_gap: 0, nearest: None };
     // What a design must keep to be of interest: the gap, or while none keeps that, the least so far.
     let mut kept_m = f64::INFINITY;
     let part = records.div_ceil(PARTS);
@@ -292,7 +292,7 @@ pub struct DesignRun {
     /// What was varied, the last fastest.
     pub variables: Vec<Axis>,
     /// The front, and how many runs it took.
-    pub found: Found,
+    pub found: SearchResult,
     /// The front (or the nearest design) with lower and upper friction.
     pub bounded: Option<Vec<Bounded>>,
     /// Sensitivity, or why there is none.
@@ -542,7 +542,7 @@ impl<'a> Runner<'a> {
     fn map(
         &self,
         request: &DesignRequest<'_>,
-        found: &Found,
+        found: &SearchResult,
         sensitivity: Option<&Result<Sensitivity, SensitivityError>>,
     ) -> Result<Option<DesignMap>, AssessmentError> {
         let grid = self.models.grid();
@@ -639,7 +639,7 @@ impl<'a> Runner<'a> {
 fn table(
     request: &DesignRequest,
     variables: &[Axis],
-    found: &Found,
+    found: &SearchResult,
     bounded: Option<&[Bounded]>,
 ) -> Table {
     let points = &found.front;

@@ -250,7 +250,7 @@ pub fn run_histories(
             let (case, bound) = (case(i), &bounds[i % bounds.len()]);
             let kept = with_bound(model, &case, bound, engine).map(|judged| {
                 let alone = alone::of(model, &case, bound, engine).ok().flatten();
-                Kept { alone, ..Kept::of(bound, judged) }
+                RunFigures { alone, ..RunFigures::of(bound, judged) }
             });
             Ran::of(case, kept)
         };
@@ -307,7 +307,7 @@ pub(crate) fn lateral(analysis: &Analysis, spectrum: &TargetSpectrum) -> Vec<Opt
 }
 
 /// What is kept of a run.
-struct Kept {
+struct RunFigures {
     demands: Demands,
     holds: bool,
     alone: Option<Alone>,
@@ -317,7 +317,7 @@ struct Kept {
     noticed: [Vec<Notice>; 3],
 }
 
-impl Kept {
+impl RunFigures {
     fn of(bound: &Bound, (job, judged): (Job, Judged)) -> Self {
         let Judged { model, response, certificate, .. } = judged;
         let nominal = *bound == Bound::NOMINAL;
@@ -339,7 +339,7 @@ fn on_record(
     model: &ModelOn<'_>,
     (record, scale): (usize, &f64),
     bounds: &[Bound],
-    ran: impl Iterator<Item = Ran<Kept>>,
+    ran: impl Iterator<Item = Ran<RunFigures>>,
 ) -> OnRecord {
     let several = if bounds.len() > 1 { bounds } else { &[] };
     let in_words = model.suite.in_words(several, &|_| String::new());
@@ -406,7 +406,7 @@ fn sliding(response: &Response) -> Option<[Vec<f64>; 2]> {
 
 impl OnRecord {
     /// Takes what the tables and the figure tell of a run.
-    fn take(&mut self, bound: &Bound, several: bool, kept: Kept) -> (Demands, bool) {
+    fn take(&mut self, bound: &Bound, several: bool, kept: RunFigures) -> (Demands, bool) {
         let of_bound = |warning: Notice| match several {
             false => warning,
             true => {

@@ -14,7 +14,7 @@ use crate::study::engine::{Engine, Running};
 pub struct Sweep {
     models: Models,
     motion: PreparedMotion,
-    room: Workspace,
+    workspace: Workspace,
 }
 
 impl Sweep {
@@ -22,7 +22,7 @@ impl Sweep {
     #[must_use]
     pub fn new(models: Models, motion: GroundMotion) -> Self {
         let motion = PreparedMotion::new(motion);
-        Self { models, motion, room: Workspace::default() }
+        Self { models, motion, workspace: Workspace::default() }
     }
 
     /// The models and their grid.
@@ -41,7 +41,7 @@ impl Sweep {
     fn one(&mut self, number: usize) -> Result<Demands, RunError> {
         let model = self.models.parts(&self.models.grid().values(number))?.model;
         let engine = Engine::unwatched();
-        Ok(Running::new(&model, &engine).on(&self.motion, &mut self.room)?.demands)
+        Ok(Running::new(&model, &engine).on(&self.motion, &mut self.workspace)?.demands)
     }
 }
 

@@ -55,7 +55,7 @@ impl Totals {
 
 /// What the check has found by itself.
 #[derive(Clone, Copy)]
-pub(super) struct Own<'a> {
+pub(super) struct Recomputed<'a> {
     pub(super) outputs: &'a Outputs,
     /// Peak, largest, least and last sliding displacement, and what they are measured by.
     pub(super) sliding_m: [f64; 4],
@@ -72,7 +72,7 @@ pub(super) struct Own<'a> {
     pub(super) width_m: Option<f64>,
 }
 
-impl Own<'_> {
+impl Recomputed<'_> {
     /// Least and largest peak of an output, and its scale.
     fn peak(&self, i: usize) -> [f64; 3] {
         [self.peaks[i], self.possible[i].max(self.peaks[i]), self.scales[i]]
@@ -125,7 +125,7 @@ impl Comparison {
 pub(super) fn of_motion(
     c: &mut Comparison,
     (model, response, h): (&Model, &Response, &History),
-    own: &Own<'_>,
+    own: &Recomputed<'_>,
     rounding: &Rounding,
 ) {
     let (d, near_m) = (&response.demands, rounding.displacement_m);
@@ -143,7 +143,7 @@ pub(super) fn of_directions(
     c: &mut Comparison,
     model: &Model,
     d: &Demands,
-    own: &Own<'_>,
+    own: &Recomputed<'_>,
     rounding: &Rounding,
 ) {
     let printed = [
@@ -163,7 +163,7 @@ fn of_sums(
     c: &mut Comparison,
     d: &Demands,
     h: &History,
-    own: &Own<'_>,
+    own: &Recomputed<'_>,
     rounding: &Rounding,
 ) -> f64 {
     let peak_m = own.scale_m;
@@ -179,7 +179,7 @@ fn of_sums(
 }
 
 /// The least margin of the decisions at stops.
-fn of_stops(c: &mut Comparison, response: &Response, own: &Own<'_>) {
+fn of_stops(c: &mut Comparison, response: &Response, own: &Recomputed<'_>) {
     let closest = own.totals.closest_stop.filter(|_| response.method == Method::Exact);
     match (response.demands.closest_stop, closest) {
         (Some(printed), Some(margin)) => {
@@ -196,7 +196,13 @@ pub(super) fn extremes(list: impl Iterator<Item = f64>) -> [f64; 4] {
 }
 
 /// Peaks of the outputs, and what is a multiple of one.
-fn of_peaks(c: &mut Comparison, model: &Model, d: &Demands, own: &Own<'_>, rounding: &Rounding) {
+fn of_peaks(
+    c: &mut Comparison,
+    model: &Model,
+    d: &Demands,
+    own: &Recomputed<'_>,
+    rounding: &Rounding,
+) {
     let (weight_n, n) = (model.weight_n(), model.points());
     let (force_n, near_m) = (rounding.force_n, rounding.displacement_m);
     let over = |i: usize, divisor: f64| own.peak(i).map(|peak| peak / divisor);
@@ -247,7 +253,7 @@ fn of_contents(
     c: &mut Comparison,
     model: &Model,
     (d, h): (&Demands, &History),
-    own: &Own<'_>,
+    own: &Recomputed<'_>,
     (instants_s, rounding): (f64, &Rounding),
 ) {
     let contents = model.contents();
@@ -315,7 +321,7 @@ fn of_stop(
     c: &mut Comparison,
     model: &Model,
     d: &Demands,
-    own: &Own<'_>,
+    own: &Recomputed<'_>,
     (instants_s, rounding): (f64, &Rounding),
 ) {
     match (&d.stop, model.stop()) {
@@ -340,7 +346,7 @@ fn of_stop(
 fn of_events(
     c: &mut Comparison,
     response: &Response,
-    own: &Own<'_>,
+    own: &Recomputed<'_>,
     peak_m: f64,
     rounding: &Rounding,
 ) {

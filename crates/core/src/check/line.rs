@@ -21,7 +21,7 @@ use fearless_simd::{Level, dispatch};
 use self::knots::{Acting, Knots, LaneJudge, Worst, lists_of};
 use self::watch::Watched;
 use super::collocation::Rule;
-use super::demands::{self, Comparison, Own, Rounding};
+use super::demands::{self, Comparison, Recomputed, Rounding};
 use super::energy::Books;
 use super::judge::{Directions, Given, Judge, Run, Sizes};
 use super::outputs::{BLOCK, VELOCITY};
@@ -294,7 +294,7 @@ impl<'a> Directions for Judge<'a, Line<'a>> {
     fn compare_demands(&self, c: &mut Comparison, rounding: &Rounding) {
         let (h, attained) = (self.h, &self.axes.attained);
         let sliding_m = demands::extremes(h.sliding_displacement_m.iter().copied());
-        let own = Own {
+        let own = Recomputed {
             outputs: self.outputs,
             sliding_m,
             scale_m: sliding_m[0],

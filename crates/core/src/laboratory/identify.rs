@@ -62,7 +62,7 @@ pub struct Identified {
     /// What a reader must know.
     pub warnings: Vec<Notice>,
     /// What only one of the jobs has.
-    pub found: Found,
+    pub found: Fitted,
 }
 
 impl Identified {
@@ -70,7 +70,7 @@ impl Identified {
     #[must_use]
     pub fn files(&self) -> Vec<(&'static str, String)> {
         let table = match &self.found {
-            Found::ShakingTable { fit, .. } => Some(table_csv(&fit.comparison.motion)),
+            Fitted::ShakingTable { fit, .. } => Some(table_csv(&fit.comparison.motion)),
             _ => None,
         };
         let record = table.as_ref().map(|_| TABLE_FILE);
@@ -98,9 +98,9 @@ impl Identified {
             .numbers("high", "", numbers(&|e| e.interval().map(|[_, high]| high)))
             .texts("cannot_tell", all.iter().map(|e| e.why().unwrap_or("").to_owned()).collect());
         let more = match &self.found {
-            Found::Cyclic { fits, .. } => Some(("cycles", cycles(fits, measured))),
-            Found::FreeVibration { .. } => None,
-            Found::ShakingTable { fit, .. } => Some(("agreement", fit.comparison.table())),
+            Fitted::Cyclic { fits, .. } => Some(("cycles", cycles(fits, measured))),
+            Fitted::FreeVibration { .. } => None,
+            Fitted::ShakingTable { fit, .. } => Some(("agreement", fit.comparison.table())),
         };
         core::iter::once(("estimates", estimates))
             .chain(more)
@@ -112,13 +112,13 @@ impl Identified {
     /// friction is not told as a coefficient.
     #[must_use]
     pub fn slider_keys(&self) -> Option<String> {
-        let cyclic = matches!(self.found, Found::Cyclic { .. });
+        let cyclic = matches!(self.found, Fitted::Cyclic { .. });
         cyclic.then(|| fitted::slider_keys(&self.estimates)).flatten()
     }
 
     /// Friction by speed, measured and fitted, where it was taken to follow the speed.
     fn by_speed(&self, measured: &[Measured]) -> Vec<(&'static str, Table)> {
-        let Found::Cyclic { fits, together: CyclicEstimates { rate: Some(rate), .. }, .. } =
+        let Fitted::Cyclic { fits, together: CyclicEstimates { rate: Some(rate), .. }, .. } =
             &self.found
         else {
             return Vec::new();
@@ -155,7 +155,7 @@ impl Identified {
     #[must_use]
     pub fn curves(&self, measured: &[Measured]) -> Vec<(String, Table)> {
         match &self.found {
-            Found::Cyclic { fits, .. } => {
+            Fitted::Cyclic { fits, .. } => {
                 let tests = measured.iter().zip(fits).filter_map(|(measured, fit)| {
                     let [displacement, force] = cyclic_histories(measured).ok()?;
                     let mut table = Table::default();
@@ -168,7 +168,7 @@ impl Identified {
                 });
                 tests.collect()
             }
-            Found::FreeVibration { channel, times_s, values, fit } => {
+            Fitted::FreeVibration { channel, times_s, values, fit } => {
                 let unit = channel.dimension().si_unit();
                 let mut fitted_values = fit.fitted.clone();
                 fitted_values.resize(times_s.len(), f64::NAN);
@@ -179,7 +179,7 @@ impl Identified {
                     .numbers("fitted", unit, fitted_values);
                 vec![(channel.name(), table)]
             }
-            Found::ShakingTable { fit, .. } => fit.comparison.curves(),
+            Fitted::ShakingTable { fit, .. } => fit.comparison.curves(),
         }
     }
 }
@@ -217,7 +217,7 @@ const TABLE_FILE: &str = "table.csv";
 
 /// What only one of the jobs has.
 #[derive(Clone, Debug)]
-pub enum Found {
+pub enum Fitted {
     /// Cyclic tests.
     Cyclic {
         /// What each test says, in the order of the files.
@@ -368,7 +368,7 @@ pub fn cyclic(
         model = Some(analysis);
     }
     let estimates = together.estimates.iter().chain(&together.per_hz).cloned().collect();
-    let found = Found::Cyclic { fits, together, normal_force_n };
+    let found = Fitted::Cyclic { fits, together, normal_force_n };
     Ok(Identified { estimates, model, warnings, found })
 }
 
@@ -410,7 +410,7 @@ pub fn free_vibration(
         warnings.extend(decided);
         model = Some(analysis);
     }
-    let found = Found::FreeVibration { channel: series.channel, times_s, values, fit };
+    let found = Fitted::FreeVibration { channel: series.channel, times_s, values, fit };
     Ok(Identified { estimates, model, warnings, found })
 }
 
@@ -482,7 +482,7 @@ pub fn shaking_table(
     warnings.extend(fit.warnings.iter().cloned());
     warnings.extend(decided);
     let estimates = fit.estimates.clone();
-    let found = Found::ShakingTable { fit: Box::new(fit), parameters, seed: request.seed };
+    let found = Fitted::ShakingTable { fit: Box::new(fit), parameters, seed: request.seed };
     Ok(Identified { estimates, model: Some(model), warnings, found })
 }
 

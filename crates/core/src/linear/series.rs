@@ -321,7 +321,7 @@ impl Series {
 
     /// Room for the start and for so many orders after it, of states of so many numbers.
     #[inline(always)]
-    pub(super) fn room(&mut self, orders: usize, stride: usize) -> (&mut [f64], &mut [f64]) {
+    pub(super) fn scratch(&mut self, orders: usize, stride: usize) -> (&mut [f64], &mut [f64]) {
         self.used = orders;
         let (start, rest) = self.c.split_at_mut(stride);
         (start, &mut rest[..stride * orders])

@@ -207,7 +207,7 @@ impl Solution {
             series.expand_to(simd, system, self.slip, x, load, (self.length_s, orders));
             return;
         }
-        let (start, rest) = series.room(orders, x.len());
+        let (start, rest) = series.scratch(orders, x.len());
         start.copy_from_slice(x);
         if !self.slip {
             start[1] = 0.0;

@@ -62,7 +62,7 @@ impl Recorder {
         let (storeys, surfaces) = (system.storeys, law.surface_count());
         let stop = law.has_pads();
         let mut history = History { storeys, surfaces, ..History::default() };
-        let room = samples + samples / 8;
+        let capacity = samples + samples / 8;
         for column in [
             &mut history.time_s,
             &mut history.table_acceleration_m_per_s2,
@@ -71,16 +71,16 @@ impl Recorder {
             &mut history.block_acceleration_m_per_s2,
             &mut history.friction_force_n,
         ] {
-            column.reserve(room);
+            column.reserve(capacity);
         }
         for column in [
             &mut history.storey_displacement_m,
             &mut history.storey_velocity_m_per_s,
             &mut history.storey_acceleration_m_per_s2,
         ] {
-            column.reserve(room * storeys);
+            column.reserve(capacity * storeys);
         }
-        history.mode.reserve(room);
+        history.mode.reserve(capacity);
         history.rows.reserve(samples);
         Self { history, slope_m_per_s2, stop, f: vec![0.0; system.modes()], state: Vec::new() }
     }

@@ -252,12 +252,12 @@ pub(crate) struct OneThread<'a, M = ()> {
     of: &'a Runs<'a, M>,
     models: Vec<([usize; 2], Running<'a>)>,
     own: Option<(MotionOrigin<'a>, Result<Shaking<M>, RunError>)>,
-    room: Workspace,
+    workspace: Workspace,
 }
 
 impl<'a, M: Clone + Send + Sync> OneThread<'a, M> {
     pub(crate) fn new(of: &'a Runs<'a, M>) -> Self {
-        Self { of, models: Vec::new(), own: None, room: Workspace::default() }
+        Self { of, models: Vec::new(), own: None, workspace: Workspace::default() }
     }
 
     pub(crate) fn run<R>(
@@ -266,7 +266,7 @@ impl<'a, M: Clone + Send + Sync> OneThread<'a, M> {
         (parts, turned_rad): (&'a Result<Parts, RunError>, Option<f64>),
         keep: impl Fn(&Case, &Response, &GroundMotion) -> R,
     ) -> Ran<R, M> {
-        let Self { of, models, own, room } = self;
+        let Self { of, models, own, workspace } = self;
         let shared = of.shared(&case);
         let known = |shaking: &Result<Shaking<M>, RunError>| {
             shaking.as_ref().ok().map(|shaking| shaking.known.clone())
@@ -299,7 +299,7 @@ impl<'a, M: Clone + Send + Sync> OneThread<'a, M> {
             models.len() - 1
         });
         let known = Some(ready.known.clone());
-        match models[at].1.on(&ready.motion, room) {
+        match models[at].1.on(&ready.motion, workspace) {
             Ok(response) => Ran {
                 case,
                 known,

@@ -164,14 +164,15 @@ impl<'a> Running<'a> {
     pub(crate) fn on(
         &mut self,
         motion: &PreparedMotion,
-        room: &mut Workspace,
+        workspace: &mut Workspace,
     ) -> Result<Response, SolveError> {
         let dt_s = motion.dt_s();
         let prepared = match self.prepared.take().filter(|prepared| prepared.dt_s() == dt_s) {
             Some(prepared) => prepared,
-            None => room.prepare(self.model, dt_s),
+            None => workspace.prepare(self.model, dt_s),
         };
-        self.engine.watch(|go_on| self.prepared.insert(prepared).demands_while(room, motion, go_on))
+        self.engine
+            .watch(|go_on| self.prepared.insert(prepared).demands_while(workspace, motion, go_on))
     }
 }
 

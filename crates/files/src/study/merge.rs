@@ -9,7 +9,7 @@ use slipstick::table::Cells;
 use slipstick_report::json::Json;
 
 use super::part::{self, Checks, Notes, PartFile};
-use super::parts::{Found, MANIFEST, PARTS, SUMMARY, find, held};
+use super::parts::{MANIFEST, PARTS, PartsFound, SUMMARY, find, held};
 use super::summary;
 use super::{OpenStudy, StudyError};
 use crate::error::FileError;
@@ -124,7 +124,7 @@ fn totals(files: &[PartFile]) -> Merged {
 /// [`StudyError::Stray`] for files that are not the parts of their names,
 /// [`StudyError::Incomplete`] where runs are missing, [`FileError`] for files that cannot be read or written.
 pub fn merge(folders: &[PathBuf], out: &Path) -> Result<Merged, StudyError> {
-    let mut all = Found::default();
+    let mut all = PartsFound::default();
     for folder in folders {
         let found = find(&held(folder))?;
         found.refuse_damaged()?;

@@ -140,7 +140,7 @@ pub(super) fn remove_leftovers(
 
 /// What stands under the names of parts in a folder.
 #[derive(Debug, Default)]
-pub(super) struct Found {
+pub(super) struct PartsFound {
     /// The parts, in order of their runs.
     pub whole: Vec<PartFile>,
     /// Files that are not what they were written as, or hold other runs than their names say.
@@ -157,7 +157,7 @@ pub(super) struct Damaged {
     pub reason: String,
 }
 
-impl Found {
+impl PartsFound {
     /// Refuses parts of another study.
     pub fn refuse_foreign(&self, id: &str) -> Result<(), StudyError> {
         match self.whole.iter().find(|part| part.notes.id != id) {
@@ -183,13 +183,13 @@ impl Found {
 ///
 /// # Errors
 /// [`FileError::Read`].
-pub(super) fn find(parts: &Path) -> Result<Found, FileError> {
+pub(super) fn find(parts: &Path) -> Result<PartsFound, FileError> {
     let names = names(parts)?.into_iter();
     let named: Vec<_> = names.filter_map(|name| Some((part_of_name(&name)?, name))).collect();
     let judge = |i: usize| Ok(judge(&parts.join(&named[i].1), named[i].0));
     // Nothing stops an engine that nobody follows.
     let judged = Engine::unwatched().map(named.len(), judge).unwrap_or_default();
-    let mut found = Found::default();
+    let mut found = PartsFound::default();
     for ((part, name), judged) in named.into_iter().zip(judged) {
         let path = parts.join(&name);
         match judged? {

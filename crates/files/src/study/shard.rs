@@ -9,7 +9,7 @@ use slipstick::study::engine::Engine;
 use slipstick::study::{Row, Verdict};
 
 use super::part::{self, Checks, Notes, part_count, part_name, rows_of};
-use super::parts::{Damaged, Found, PARTS, find, refuse_old_layout, remove_leftovers};
+use super::parts::{Damaged, PARTS, PartsFound, find, refuse_old_layout, remove_leftovers};
 use super::{OpenStudy, StudyError};
 use crate::error::shown;
 use crate::parquet::at;
@@ -194,7 +194,7 @@ impl OpenStudy {
 }
 
 /// What becomes of files that are not the parts of their names.
-fn notices(found: &Found, wanted: &Range<u64>, count: u64) -> Vec<String> {
+fn notices(found: &PartsFound, wanted: &Range<u64>, count: u64) -> Vec<String> {
     let stray = |path: &Path| {
         format!("{}: the study has no such part; left out of the summary", shown(path))
     };

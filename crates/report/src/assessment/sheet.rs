@@ -10,14 +10,12 @@ use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 use crate::VERSION;
 use crate::display::DisplayUnits;
 use crate::figures::Drawn;
-use crate::html::{
-    Frame, appendix, document, figure_list, inputs, name_table, number_table, warning_list,
-};
+use crate::html::{Frame, document, figure_list, inputs, name_table, number_table, warning_list};
 use crate::json::Json;
 use crate::laboratory::text::{aligned, field};
 use crate::markup::Markup;
 use crate::markup::shortened;
-use crate::report::{FileNote, InputText};
+use crate::report::Provenance;
 use crate::summary::keys::{listed, suite};
 
 /// A heading and a table: the first row are heads, the first column names.
@@ -46,6 +44,10 @@ pub struct Sheet {
     pub display: DisplayUnits,
     /// All that a reader must know.
     pub warnings: Vec<Notice>,
+    /// The run that each of the first warnings is of, where there are several of one record.
+    pub of_runs: Vec<Option<&'static str>>,
+    /// Whether the answer must not be used.
+    pub failed: bool,
     /// The tables, the one that answers first.
     pub tables: Vec<Table>,
     /// Names and values that the page alone shows, at its end; without heads.
@@ -58,21 +60,12 @@ pub struct Sheet {
     pub figures: Vec<Drawn>,
     /// How it was found and what that leaves out, a sentence or two each.
     pub method: Vec<String>,
+    /// Sections that the page has besides, and what stands first in its appendix.
+    pub(crate) laid_out: [Markup; 2],
     /// Whether every run has an answer whose certificate holds, and what was looked for is found.
     pub complete: bool,
     /// What `--json` prints between the version and the warnings.
     pub json: Vec<(&'static str, Json)>,
-}
-
-/// What a result was made from.
-#[derive(Clone, Copy, Debug)]
-pub struct Went<'a> {
-    /// The command as it was typed.
-    pub command_line: &'a str,
-    /// Files read, with their hashes.
-    pub files: &'a [FileNote<'a>],
-    /// Texts that people wrote.
-    pub inputs: &'a [InputText<'a>],
 }
 
 impl Sheet {
@@ -144,40 +137,45 @@ impl Sheet {
         out.raw("</ul>\n");
     }
 
+    /// The first figure and table, which answer, and the rest, which supports them.
+    fn answers(&self, out: &mut Markup) {
+        let Self { figures, tables, notes, keys, .. } = self;
+        if figures.is_empty() && tables.is_empty() && notes.is_empty() && keys.is_none() {
+            return;
+        }
+        let (figure, figures) = figures.split_at(figures.len().min(1));
+        let (table, tables) = tables.split_at(tables.len().min(1));
+        out.raw("<section>\n");
+        figure_list(out, figure, 1);
+        table_list(out, table);
+        for note in notes {
+            out.element("p", note).raw("\n");
+        }
+        if let Some((heading, keys)) = keys {
+            out.element("h3", heading).raw("\n").element("pre", keys).raw("\n");
+        }
+        figure_list(out, figures, 2);
+        table_list(out, tables);
+        out.raw("</section>\n");
+    }
+
     /// One self-contained HTML page that prints on A4.
     #[must_use]
-    pub fn to_html(&self, went: &Went) -> String {
+    pub fn to_html(&self, provenance: &Provenance) -> String {
         let mut body = Markup::new();
-        body.raw("<section class=\"verdict\">\n");
-        for (i, sentence) in self.verdict.iter().enumerate() {
+        let first = self.first.iter().map(|(name, sentence)| format!("{name}: {sentence}"));
+        let failed = if self.failed { " failed" } else { "" };
+        body.raw("<section class=\"verdict").raw(failed).raw("\">\n");
+        for (i, sentence) in self.verdict.iter().cloned().chain(first).enumerate() {
             body.raw(if i == 0 { "<p class=\"lead\">" } else { "<p>" })
                 .text(sentence)
                 .raw("</p>\n");
         }
-        if let Some((name, sentence)) = &self.first {
-            let lead = self.verdict.is_empty();
-            body.raw(if lead { "<p class=\"lead\">" } else { "<p>" })
-                .text(format!("{name}: {sentence}"))
-                .raw("</p>\n");
-        }
         body.raw("</section>\n");
-        let warnings: Vec<_> = self.warnings.iter().map(|warning| (None, warning)).collect();
+        let of_runs = self.of_runs.iter().copied().chain(core::iter::repeat(None));
+        let warnings: Vec<_> = of_runs.zip(&self.warnings).collect();
         warning_list(&mut body, &warnings, self.display);
-        // The first figure and table answer; the rest supports them.
-        let (figure, figures) = self.figures.split_at(self.figures.len().min(1));
-        let (table, tables) = self.tables.split_at(self.tables.len().min(1));
-        body.raw("<section>\n");
-        figure_list(&mut body, figure, 1);
-        table_list(&mut body, table);
-        for note in &self.notes {
-            body.element("p", note).raw("\n");
-        }
-        if let Some((heading, keys)) = &self.keys {
-            body.element("h3", heading).raw("\n").element("pre", keys).raw("\n");
-        }
-        figure_list(&mut body, figures, 2);
-        table_list(&mut body, tables);
-        body.raw("</section>\n");
+        self.answers(&mut body);
         if !self.method.is_empty() {
             body.raw("<section>\n<h2>Method and limits</h2>\n<ul>\n");
             for line in &self.method {
@@ -185,7 +183,9 @@ impl Sheet {
             }
             body.raw("</ul>\n</section>\n");
         }
-        appendix(&mut body);
+        let [sections, appendix] = &self.laid_out;
+        body.append(sections);
+        body.raw("<section class=\"appendix\">\n<h2>Appendix</h2>\n").append(appendix);
         for (heading, rows) in &self.appendix {
             let pairs = rows.iter().filter_map(|row| match row.as_slice() {
                 [name, value] => Some((name.as_str(), value.clone())),
@@ -194,17 +194,14 @@ impl Sheet {
             name_table(&mut body, heading, &pairs.collect::<Vec<_>>());
         }
         self.noticed(&mut body);
-        inputs::provenance(&mut body, went.files, went.command_line, went.inputs);
+        inputs::provenance(&mut body, provenance);
         body.raw("</section>\n");
+        let hash = self.model_hash.iter().map(|hash| format!(", model {hash}"));
         document(&Frame {
             kind: self.kind,
             name: &self.name,
-            line: &format!(
-                "Slipstick {VERSION}{}. {}",
-                self.model_hash.as_ref().map_or(String::new(), |hash| format!(", model {hash}")),
-                self.line
-            ),
-            command_line: went.command_line,
+            line: &format!("Slipstick {VERSION}{}. {}", hash.collect::<String>(), self.line),
+            command_line: provenance.command_line,
             body: &body,
         })
     }

@@ -7,7 +7,7 @@ use crate::describe::{model_rows, storey_rows};
 use crate::display::Quantity;
 use crate::markup::Markup;
 use crate::number::{compact, count, printed, significant};
-use crate::report::{FileNote, InputText, Report};
+use crate::report::{FileNote, Provenance, Report};
 use crate::table::drifts;
 
 /// Model and record in numbers.
@@ -73,15 +73,10 @@ fn record_rows(report: &Report) -> Vec<(&'static str, String)> {
 }
 
 /// Files with their hashes, the command, and texts that people wrote.
-pub(crate) fn provenance(
-    out: &mut Markup,
-    files: &[FileNote],
-    command_line: &str,
-    inputs: &[InputText],
-) {
-    file_table(out, files);
-    out.raw("<h3>Command</h3>\n<p class=\"command\">").text(command_line).raw("</p>\n");
-    for input in inputs {
+pub(crate) fn provenance(out: &mut Markup, provenance: &Provenance) {
+    file_table(out, provenance.files);
+    out.raw("<h3>Command</h3>\n<p class=\"command\">").text(provenance.command_line).raw("</p>\n");
+    for input in provenance.inputs {
         out.raw("<h3 class=\"path\">")
             .text(input.path)
             .raw("</h3>\n<pre>")

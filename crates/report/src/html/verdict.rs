@@ -1,22 +1,13 @@
 //! The answer in a few lines: how far the block slides, what governs, whether the check holds.
 
 use crate::display::{Quantity, Unit};
-use crate::markup::Markup;
 use crate::number::{compact, count, printed, typeset};
 use crate::report::Report;
 use crate::summary::Summary;
 
 /// Gap used, governing run and certificate.
-pub fn section(out: &mut Markup, report: &Report) {
-    let failed = report.summary.check_failed();
-    out.raw(if failed {
-        "<section class=\"verdict failed\">\n"
-    } else {
-        "<section class=\"verdict\">\n"
-    });
-    out.raw("<p class=\"lead\">").text(sliding(report)).raw("</p>\n");
-    out.element("p", rest(report)).raw("\n");
-    out.element("p", certificate(report.summary)).raw("\n</section>\n");
+pub fn sentences(report: &Report) -> Vec<String> {
+    vec![sliding(report), rest(report), certificate(report.summary)]
 }
 
 /// The run with the largest sliding displacement, with its name.

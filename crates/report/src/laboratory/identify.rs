@@ -1,7 +1,7 @@
 //! Identified parameters: what the three jobs have in common.
 
 use slipstick::laboratory::estimate::{Estimate, Outcome};
-use slipstick::laboratory::identify::{Found, Identified, cyclic_histories};
+use slipstick::laboratory::identify::{Fitted, Identified, cyclic_histories};
 use slipstick::laboratory::measured::Measured;
 
 use super::{cyclic, free_vibration, shaking_table};
@@ -112,7 +112,7 @@ fn of_job(
     display: DisplayUnits,
 ) -> OfJob {
     match &identified.found {
-        Found::Cyclic { fits, together, normal_force_n } => {
+        Fitted::Cyclic { fits, together, normal_force_n } => {
             let tests = measured.iter().zip(fits).filter_map(|(measured, fit)| {
                 let [displacement, force] = cyclic_histories(measured).ok()?;
                 let (displacement_m, force_n) = (&displacement.values, &force.values);
@@ -143,7 +143,7 @@ fn of_job(
                 figures: friction.into_iter().chain(cyclic::figures(&tests, display)).collect(),
             }
         }
-        Found::FreeVibration { channel, times_s, values, fit } => {
+        Fitted::FreeVibration { channel, times_s, values, fit } => {
             let span_s = [times_s.first(), times_s.last()].map(|t| t.copied().unwrap_or(0.0));
             OfJob {
                 job: "free-vibration",
@@ -154,7 +154,7 @@ fn of_job(
                 figures: free_vibration::figures(*channel, times_s, values, fit, display),
             }
         }
-        Found::ShakingTable { fit, parameters, seed } => {
+        Fitted::ShakingTable { fit, parameters, seed } => {
             let (rows, figures) = shaking_table::agreement(fit, name, display);
             OfJob {
                 job: "shaking-table",

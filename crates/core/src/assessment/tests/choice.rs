@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::assessment::design::{Demand, Found, Target, records_needed, search};
+use crate::assessment::design::{Demand, SearchResult, Target, records_needed, search};
 use crate::assessment::sensitivity::{design, indices};
 use crate::assessment::spectrum::{fixed_base, intervals_above};
 use crate::error::FitError;
@@ -48,7 +48,7 @@ fn full_front(
     front.into_iter().collect()
 }
 
-fn numbers(found: &Found) -> BTreeSet<usize> {
+fn numbers(found: &SearchResult) -> BTreeSet<usize> {
     found.front.iter().map(|point| point.design).collect()
 }
 

@@ -17,7 +17,7 @@ use crate::slider::Direction;
 
 /// Changes of modes at knots, and what is asked there in modes and under loads that may have led to them.
 #[derive(Default)]
-struct Asked {
+struct ChangeDemands {
     changes: Vec<Change>,
     /// Lists of modes, one after another, and loads.
     modes: Vec<Mode>,
@@ -37,7 +37,7 @@ struct Change {
     forces: usize,
 }
 
-impl Asked {
+impl ChangeDemands {
     fn modes(&self, list: usize) -> &[Mode] {
         &self.modes[list * self.interfaces..][..self.interfaces]
     }
@@ -86,7 +86,7 @@ impl<'a> Judge<'a, Line<'a>> {
                 self.impact(self.runs[run].from);
             }
         }
-        let mut asked = Asked { interfaces: self.h.interfaces, ..Asked::default() };
+        let mut asked = ChangeDemands { interfaces: self.h.interfaces, ..ChangeDemands::default() };
         for &k in changes.iter().filter(|&&k| !self.strikes(k)) {
             self.change(k, &mut asked);
         }
@@ -98,7 +98,7 @@ impl<'a> Judge<'a, Line<'a>> {
     }
 
     /// What is to be asked at a knot.
-    fn change(&self, knot: usize, asked: &mut Asked) {
+    fn change(&self, knot: usize, asked: &mut ChangeDemands) {
         let (list, load) = (asked.modes.len() / asked.interfaces, asked.loads.len());
         for now in self.ground.instant(self.h.time_s[knot]) {
             if !asked.loads[load..].contains(&now) {
@@ -132,7 +132,7 @@ impl<'a> Judge<'a, Line<'a>> {
     }
 
     /// Finds the forces of all changes, eight at a time.
-    fn ask(&self, asked: &mut Asked) {
+    fn ask(&self, asked: &mut ChangeDemands) {
         let bench = self.bench();
         let mut work = Work::new(&bench, STOREYS);
         let mut group = Group::new(&bench);
@@ -238,7 +238,7 @@ impl<'a> Judge<'a, Line<'a>> {
     }
 
     /// Judges the changes of mode at a knot, at which what changes has no velocity.
-    fn changes(&mut self, change: &Change, asked: &Asked) {
+    fn changes(&mut self, change: &Change, asked: &ChangeDemands) {
         let k = change.knot;
         let (h, time_s) = (self.h, self.h.time_s[k]);
         let after = h.modes(k);
@@ -274,7 +274,7 @@ impl<'a> Judge<'a, Line<'a>> {
 
     /// Interfaces that let go at one knot: a close call where one of them, had it let go first, would have
     /// held the other back. Along a jump each reaches its bound at a part of the way.
-    fn releases(&mut self, change: &Change, list: &Asked) {
+    fn releases(&mut self, change: &Change, list: &ChangeDemands) {
         let (k, after) = (change.knot, self.h.modes(change.knot));
         let before = self.before(k);
         let gone = gone(before, after);

@@ -1,6 +1,6 @@
 //! The printed demands of a motion in a plane, compared with those of the check's own.
 
-use super::super::demands::{Comparison, Own, Rounding, of_directions, of_motion};
+use super::super::demands::{Comparison, Recomputed, Rounding, of_directions, of_motion};
 use super::super::outputs::VELOCITY;
 use super::frame::norm;
 use super::judge::PlaneJudge;
@@ -15,7 +15,7 @@ impl<'a> PlaneJudge<'a> {
         let peak_m = peaks.largest[0][outputs.len()];
         let last = self.place(self.h.len() - 1);
         let [most_x, least_x, most_y, least_y] = peaks.sides_m;
-        let root = Own {
+        let root = Recomputed {
             outputs,
             sliding_m: [peak_m, most_x, -least_x, norm(last)],
             scale_m: peak_m,
@@ -32,7 +32,7 @@ impl<'a> PlaneJudge<'a> {
         let widths = [model.block().width_m, model.along_y().width_m];
         let sides = [[most_x, -least_x], [most_y, -least_y]];
         for (axis, [most_m, least_m]) in sides.into_iter().enumerate() {
-            let own = Own {
+            let own = Recomputed {
                 sliding_m: [most_m.max(-least_m), most_m, least_m, last[axis]],
                 peaks: &peaks.largest[1 + axis],
                 possible: &peaks.possible[1 + axis],

@@ -57,12 +57,12 @@ impl Kind {
 }
 
 /// The tables of some texts by their kinds.
-struct Found<'a> {
+struct ModalTables<'a> {
     tables: Vec<(Kind, Exported<'a>)>,
     others: Vec<String>,
 }
 
-impl<'a> Found<'a> {
+impl<'a> ModalTables<'a> {
     fn read(sources: &Sources, texts: &[(usize, &'a str)]) -> Result<Self, InputError> {
         let mut found = Self { tables: Vec::new(), others: Vec::new() };
         for (source, text) in texts {
@@ -172,7 +172,7 @@ pub(super) fn read(
     texts: &[(usize, &str)],
     options: &ModalOptions,
 ) -> Result<ModalTable, InputError> {
-    let found = Found::read(sources, texts)?;
+    let found = ModalTables::read(sources, texts)?;
     let start = Spot { source: texts.first().map_or(0, |(source, _)| *source), span: 0..0 };
     let base = found.get(Kind::Ratios).or(found.get(Kind::Factors));
     let Some(base) = base else {

@@ -91,7 +91,7 @@ fn prop_parts_of_an_interval_agree_with_the_whole_series() {
             }
             let start = [&x.0[..], &[0.0; 4][..row.len() - components]].concat();
             let mut out = row.clone();
-            let mut room = crate::linear::Series::new(system, DEGREE);
+            let mut scratch = crate::linear::Series::new(system, DEGREE);
             let (of_a, of_force) = (random.unit(), if slip { random.unit() } else { 0.0 });
             let of_row = whole.row(&row[..components]);
             for _ in 0..10 {
@@ -101,8 +101,8 @@ fn prop_parts_of_an_interval_agree_with_the_whole_series() {
                     let of = (row.as_slice(), of_a, of_force);
                     let solution = Solution::new(simd, system, slip, (length_s, DEGREE), of);
                     let from = (start.as_slice(), &load);
-                    let c = solution.number(simd, system, from, &mut room);
-                    solution.state_at(simd, system, from, part, &mut room, &mut out);
+                    let c = solution.number(simd, system, from, &mut scratch);
+                    solution.state_at(simd, system, from, part, &mut scratch, &mut out);
                     size += c.iter().map(|c| c.abs()).sum::<f64>();
                     number += value(&c, part);
                 });

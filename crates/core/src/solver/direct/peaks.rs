@@ -339,14 +339,14 @@ fn side_by_side<const K: usize>(count: usize, column: &mut Vec<f64>, lists: &[[f
 
 /// A history with room for the knots of so many samples.
 pub(super) fn history(body: &Body, surfaces: usize, samples: usize) -> History {
-    let (n, contents, room) = (body.storeys(), body.part_of.len(), samples + samples / 4);
-    let column = |width: usize| Vec::with_capacity(width * room);
+    let (n, contents, capacity) = (body.storeys(), body.part_of.len(), samples + samples / 4);
+    let column = |width: usize| Vec::with_capacity(width * capacity);
     History {
         storeys: n,
         interfaces: 1 + contents,
         surfaces,
         time_s: column(1),
-        mode: Vec::with_capacity((1 + contents) * room),
+        mode: Vec::with_capacity((1 + contents) * capacity),
         rows: Vec::with_capacity(samples),
         table_acceleration_m_per_s2: column(1),
         sliding_displacement_m: column(1),

@@ -266,10 +266,10 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
     /// Keeps a candidate whose bounds stand in `above`; its start is `next` where the state has moved.
     #[inline(never)]
     pub(super) fn keep(&mut self, sample: usize, extent: Extent, moved: bool) {
-        let room = CANDIDATES + self.peaks.outputs;
-        if self.peaks.candidates.len() == room {
+        let capacity = CANDIDATES + self.peaks.outputs;
+        if self.peaks.candidates.len() == capacity {
             self.peaks.drop_overtaken(self.simd);
-            if self.peaks.candidates.len() > room / 2 {
+            if self.peaks.candidates.len() > capacity / 2 {
                 self.settle_peaks();
             }
         }

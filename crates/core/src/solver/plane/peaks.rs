@@ -243,7 +243,7 @@ impl Chord {
 }
 
 /// What of a series is looked at.
-struct Look<'a> {
+struct SeriesPart<'a> {
     series: &'a Series,
     to: f64,
     near: Option<&'a NearRest>,
@@ -428,9 +428,9 @@ impl Peaks {
         // The size of constant friction is linear in the time: its ends are its peaks.
         let by_axis = system.kinetic_per_kg.is_constant()
             && matches!(series.kind, Kind::Slip | Kind::Start | Kind::Turning);
-        let look = Look { series, to, near: near.as_ref(), chords: &chords };
-        self.look_at_composed(Output::FrictionForce, &friction, &look, by_axis);
-        self.look_at_composed(Output::SliderForce, &slider, &look, false);
+        let part = SeriesPart { series, to, near: near.as_ref(), chords: &chords };
+        self.look_at_composed(Output::FrictionForce, &friction, &part, by_axis);
+        self.look_at_composed(Output::SliderForce, &slider, &part, false);
         if let Some(mass) = &system.mass {
             // b = C (P − φ)
             let force = |axis: usize, k: usize| series.pull[axis][k] - series.friction[axis][k];
@@ -445,24 +445,30 @@ impl Peaks {
                 let modes = combined(arm, &series.g, series.degree);
                 let steady =
                     core::array::from_fn(|k| inner(*along, [block[0][k], block[1][k]]) - modes[k]);
-                self.look_at_moment(&Moment { axis, steady, of_friction: 0.0 }, &look);
+                self.look_at_moment(&Moment { axis, steady, of_friction: 0.0 }, &part);
             }
             return Some(block);
         }
-        self.look_at_composed(Output::Block, &block, &look, false);
+        self.look_at_composed(Output::Block, &block, &part, false);
         for axis in 0..2 {
             let Some((arm, along)) = &system.overturning[axis] else { continue };
             // The moment of floors and block: −arm·g + block·b.
             let (modes, block) = (combined(arm, &series.g, series.degree), along[axis]);
             let steady = core::array::from_fn(|k| block * series.pull[axis][k] - modes[k]);
-            self.look_at_moment(&Moment { axis, steady, of_friction: block }, &look);
+            self.look_at_moment(&Moment { axis, steady, of_friction: block }, &part);
         }
         None
     }
 
     /// `by_axis` where the length has its peaks at the ends.
-    fn look_at_composed(&mut self, output: Output, of: &Composed, look: &Look<'_>, by_axis: bool) {
-        let &Look { series, to, near, chords } = look;
+    fn look_at_composed(
+        &mut self,
+        output: Output,
+        of: &Composed,
+        part: &SeriesPart<'_>,
+        by_axis: bool,
+    ) {
+        let &SeriesPart { series, to, near, chords } = part;
         let peak = &mut self.all[output.place(self.points)];
         if let Some(near) = near {
             let steady = [of.steady(0, series), of.steady(1, series)];
@@ -480,8 +486,8 @@ impl Peaks {
     }
 
     /// The moment of an axis, which the friction across it is no part of.
-    fn look_at_moment(&mut self, of: &Moment, look: &Look<'_>) {
-        let &Look { series, to, near, .. } = look;
+    fn look_at_moment(&mut self, of: &Moment, part: &SeriesPart<'_>) {
+        let &SeriesPart { series, to, near, .. } = part;
         let (axis, mut along) = (of.axis, [ZERO; 2]);
         let all = &mut self.all[Output::Moment.place(self.points)];
         match near {
