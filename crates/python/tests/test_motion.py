@@ -23,7 +23,7 @@ def test_arrays_are_judged_as_files_are(tmp_path: Path) -> None:
     read, made = ss.read_record(path, units="g", dt=0.5), ss.Motion(values, dt=0.5, units="g")
     assert kinds(made) == kinds(read) == ["first_sample_not_zero", "record_drift"]
     assert made.warnings == read.warnings and made == read
-    with pytest.warns(ss.SlipstickWarning, match="3.000e1 g"):
+    with pytest.warns(ss.SlipstickWarning, match="is 30.0000 g: check"):
         strong = ss.Motion([0.0, 30.0, -30.0, 0.0], dt=0.5, units="g")
     assert kinds(strong)[0] == "absurd_peak" and "absurd peak" in repr(strong)
     assert strong._repr_html_().startswith("<p><b>Severe:</b>")

@@ -60,14 +60,14 @@ fn absurd(pga_m_per_s2: f64, units: &Units) -> Option<Notice> {
     let [least, largest] = ABSURD_PEAKS_M_PER_S2;
     let is_absurd = pga_m_per_s2 > largest || (pga_m_per_s2 > 0.0 && pga_m_per_s2 < least);
     is_absurd.then(|| {
-        Notice::new(
-            NoticeKind::AbsurdPeak,
-            format!(
-                "the largest acceleration is {:.4} {units}, {:.3e} g: check the units",
-                pga_m_per_s2 / units.si(),
-                pga_m_per_s2 / STANDARD_GRAVITY_M_PER_S2
-            ),
-        )
+        let in_g = match units.to_string().as_str() {
+            "g" => String::new(),
+            _ => format!(", {:.3e} g", pga_m_per_s2 / STANDARD_GRAVITY_M_PER_S2),
+        };
+        let peak = pga_m_per_s2 / units.si();
+        let message =
+            format!("the largest acceleration is {} {units}{in_g}: check the units", figures(peak));
+        Notice::new(NoticeKind::AbsurdPeak, message)
     })
 }
 
