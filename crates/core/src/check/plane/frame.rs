@@ -233,9 +233,15 @@ impl<'a> PlaneFrame<'a> {
         f
     }
 
-    /// A speed that the rounding of a time takes or gives.
-    pub(super) fn rounded(&self, time_s: f64, loads: &Loads, push: Pair) -> f64 {
-        2.0 * f64::EPSILON * time_s * (norm(push) + self.slowing(loads, 0.0))
+    /// Whether a velocity is against the one before it at a speed that the rounding of a time takes or gives: friction
+    /// does not turn a slip about, it has come to rest.
+    pub(super) fn has_turned_about(
+        &self,
+        [w, before]: [Pair; 2],
+        (time_s, loads, push): (f64, &Loads, Pair),
+    ) -> bool {
+        let rounding = 2.0 * f64::EPSILON * time_s * (norm(push) + self.slowing(loads, 0.0));
+        dot(w, before) < 0.0 && norm(w) <= rounding
     }
 
     /// Whether there is no friction at any speed.

@@ -179,9 +179,10 @@ impl<'a> PlaneJudge<'a> {
                 Reach::Within(reach_s) => reach_s,
                 Reach::Rest(rest_s) => {
                     let (w, push) = (way.state.speed(), self.push(&way.state, &loads));
-                    let rounded = self.frame().rounded(stretch.from_s + t, &loads, push);
-                    let turns_about = |before: &Pair| dot(w, *before) < 0.0 && norm(w) <= rounded;
-                    if !self.axes.heading.as_ref().is_some_and(turns_about) {
+                    let under = (stretch.from_s + t, &loads, push);
+                    let frame = self.frame();
+                    let turned = |before| frame.has_turned_about([w, before], under);
+                    if !self.axes.heading.is_some_and(turned) {
                         self.axes.heading = unit(w);
                     }
                     way.rested_s = Some(left_s - rest_s);

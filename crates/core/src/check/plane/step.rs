@@ -116,10 +116,8 @@ impl Step {
         let fastest = (0..POINTS).fold(0.0, |most: f64, i| most.max(norm(self.speed(i))));
         let (w, Stretch { from_s, step_s, loads }) = (self.speed(point), &self.stretch);
         let beside = self.speed(if point == 0 { 1 } else { point - 1 });
-        // Friction does not turn a slip about: one that is against its last direction has come to rest.
-        let turns_about =
-            dot(w, beside) < 0.0 && norm(w) <= frame.rounded(from_s + step_s, &loads[0], push);
-        if norm(w) > ROUNDING * fastest && !turns_about {
+        let under = (from_s + step_s, &loads[0], push);
+        if norm(w) > ROUNDING * fastest && !frame.has_turned_about([w, beside], under) {
             return unit(w).unwrap_or_default();
         }
         let along = if frame.body.is_one() {
