@@ -19,7 +19,7 @@ pub mod shaking_table;
 /// and holds both to their bars.
 #[cfg(test)]
 #[allow(clippy::disallowed_macros, reason = "what was counted is the result")]
-fn told(covered: &[(&str, u64)], refused: u64) {
+fn hold_to_coverage(covered: &[(&str, u64)], refused: u64) {
     for (name, count) in covered {
         println!("coverage {name}: {count} of 200");
     }

@@ -2,6 +2,7 @@
 
 mod columns;
 mod limits;
+pub(crate) mod output;
 mod registry;
 
 pub use limits::{flat_geometry, struck};

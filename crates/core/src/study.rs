@@ -15,7 +15,7 @@ mod rows;
 pub mod summary;
 mod verify;
 
-pub use cases::{Case, Cases, FailedRun, Ran};
+pub use cases::{Case, CaseRun, Cases, FailedRun};
 pub use design::Design;
 pub use records::Record;
 pub use rows::Row;

@@ -30,7 +30,7 @@ use crate::response::{
     DemandColumn, DemandKind, EventKind, InDirections, Method, Response, demand_values,
 };
 use crate::solver;
-use crate::study::cases::{Case, Ran, Runs};
+use crate::study::cases::{Case, CaseRun, Runs};
 use crate::study::engine::Engine;
 use crate::table::{Cells, Column, Table};
 
@@ -197,7 +197,7 @@ pub fn run_derivatives(
     let base = models.parts(&values)?;
     let factors = suite.scaled(request.scaling, engine)?.factors;
     let cases = Case::every(1, 1, &factors);
-    let on = |i: usize| Ran::of(cases[i], on_base(&base, suite, &cases[i], &columns, engine));
+    let on = |i: usize| CaseRun::of(cases[i], on_base(&base, suite, &cases[i], &columns, engine));
     let bases = engine.runs(cases.len(), on)?;
     let mut of = Work {
         models,
@@ -343,7 +343,7 @@ fn scale_of(key: &Key, base: &Parts) -> f64 {
 }
 
 /// The step over the value that balances rounding and curvature: the root of the usual relative rounding.
-fn relative_step(rounding: &[Vec<f64>], bases: &[Ran<Base>]) -> f64 {
+fn relative_step(rounding: &[Vec<f64>], bases: &[CaseRun<Base>]) -> f64 {
     let mut all = Vec::new();
     for (rounding, base) in rounding.iter().zip(bases) {
         let Ok(base) = &base.kept else { continue };
@@ -371,7 +371,7 @@ impl Work<'_> {
     fn run(
         &mut self,
         designs: &[Result<Parts, RunError>],
-    ) -> Result<Vec<Ran<Sample>>, AssessmentError> {
+    ) -> Result<Vec<CaseRun<Sample>>, AssessmentError> {
         for count in &mut self.analyses {
             *count += designs.len() as u64;
         }
@@ -385,7 +385,7 @@ impl Work<'_> {
     fn rounding(
         &mut self,
         values: &[f64],
-        bases: &[Ran<Base>],
+        bases: &[CaseRun<Base>],
     ) -> Result<Vec<Vec<f64>>, AssessmentError> {
         let moved = |sign: f64| {
             let values: Vec<f64> = values.iter().map(|x| x * (1.0 + sign * DIGITS)).collect();
@@ -393,7 +393,7 @@ impl Work<'_> {
         };
         let designs = [1.0, -1.0].map(moved);
         let ran = self.run(&designs)?;
-        let of_record = |(record, base): (usize, &Ran<Base>)| {
+        let of_record = |(record, base): (usize, &CaseRun<Base>)| {
             let Ok(base) = &base.kept else { return vec![0.0; self.columns.len()] };
             let of = |demand: usize| {
                 let f = base.sample.demands[demand];
@@ -414,7 +414,7 @@ impl Work<'_> {
         keys: &[usize],
         values: &[f64],
         steps: &[f64],
-        bases: &[Ran<Base>],
+        bases: &[CaseRun<Base>],
     ) -> Result<Vec<Vec<(usize, Slopes)>>, AssessmentError> {
         let stencils: Vec<Stencil> =
             keys.iter().zip(steps).map(|(key, step)| self.stencil(*key, values, *step)).collect();

@@ -26,7 +26,7 @@ use crate::numerics::fractile::{held_by, needed, sorted};
 use crate::numerics::sort;
 use crate::numerics::unit_points;
 use crate::response::demand_values;
-use crate::study::cases::{Case, Ran, Runs};
+use crate::study::cases::{Case, CaseRun, Runs};
 use crate::study::engine::Engine;
 use crate::table::Table;
 
@@ -374,7 +374,7 @@ pub fn run_design(
     let records = suite.records.len();
     let grid = models.grid();
     let parts = models.all(records, engine)?;
-    let mut ran: Vec<Ran<Demand>> = Vec::new();
+    let mut ran: Vec<CaseRun<Demand>> = Vec::new();
     let found = search(&target, grid.len(), records, |pairs: &[(usize, usize)]| {
         let case = |&(design, record): &(usize, usize)| Case {
             design,
@@ -429,7 +429,7 @@ pub fn run_design(
 fn rows(
     request: &DesignRequest<'_>,
     runner: &Runner<'_>,
-    ran: &[Ran<Demand>],
+    ran: &[CaseRun<Demand>],
 ) -> Result<Table, AssessmentError> {
     let (suite, grid) = (request.suite, request.models.grid());
     let records: Vec<usize> = ran.iter().map(|ran| ran.case.record).collect();
@@ -440,7 +440,7 @@ fn rows(
     rows.columns.extend(intensities.columns);
     rows.numbers("scale", "", records.iter().map(|&i| runner.factors[i]).collect());
     for (i, axis) in grid.axes().iter().enumerate() {
-        let value = |ran: &Ran<Demand>| grid.values(ran.case.design)[i];
+        let value = |ran: &CaseRun<Demand>| grid.values(ran.case.design)[i];
         rows.numbers(&axis.path, &axis.unit, ran.iter().map(value).collect());
     }
     let all = demands(ran);
@@ -457,7 +457,7 @@ const MAP_VALUES: usize = 25;
 /// A run without an answer.
 const FAILED: Demand = Demand { displacement_m: f64::NAN, acceleration_m_per_s2: f64::NAN };
 
-fn demands(ran: &[Ran<Demand>]) -> Vec<Demand> {
+fn demands(ran: &[CaseRun<Demand>]) -> Vec<Demand> {
     ran.iter().map(|ran| *ran.kept.as_ref().unwrap_or(&FAILED)).collect()
 }
 
@@ -492,7 +492,7 @@ impl<'a> Runner<'a> {
         &self,
         cases: &[Case],
         designs: &[Result<Parts, RunError>],
-    ) -> Result<Vec<Ran<Demand>>, Stopped> {
+    ) -> Result<Vec<CaseRun<Demand>>, Stopped> {
         self.runs.all(
             cases,
             |case| &designs[case.design],
@@ -507,7 +507,7 @@ impl<'a> Runner<'a> {
     }
 
     /// Every one of some designs on every record, the records fastest.
-    fn all(&self, parts: &[Result<Parts, RunError>]) -> Result<Vec<Ran<Demand>>, Stopped> {
+    fn all(&self, parts: &[Result<Parts, RunError>]) -> Result<Vec<CaseRun<Demand>>, Stopped> {
         self.run(&Case::every(parts.len(), 1, &self.factors), parts)
     }
 
@@ -518,14 +518,14 @@ impl<'a> Runner<'a> {
         parts: &[Result<Parts, RunError>],
         factors: [f64; 2],
         target: &Target,
-    ) -> Result<(Vec<Bounded>, Vec<Ran<Demand>>), AssessmentError> {
+    ) -> Result<(Vec<Bounded>, Vec<CaseRun<Demand>>), AssessmentError> {
         let with = |(design, factor): (usize, f64)| -> Result<Parts, RunError> {
             let parts = parts[design].as_ref().map_err(Clone::clone)?;
             Ok(Parts { model: parts.model.with_friction_times(factor)?, ..parts.clone() })
         };
         let both = designs.iter().flat_map(|design| factors.map(|factor| (*design, factor)));
         let mut ran = self.all(&both.map(with).collect::<Vec<_>>())?;
-        for Ran { case, .. } in &mut ran {
+        for CaseRun { case, .. } in &mut ran {
             (case.design, case.bound) = (designs[case.design / 2], case.design % 2);
         }
         let of_bounds = demands(&ran);
@@ -617,7 +617,7 @@ impl<'a> Runner<'a> {
             Ok(self.models.parts(&values).map_err(RunError::from))
         })?;
         let ran = self.all(&parts)?;
-        let figures = |of_row: &[Ran<Demand>]| -> Result<[f64; 2], SensitivityError> {
+        let figures = |of_row: &[CaseRun<Demand>]| -> Result<[f64; 2], SensitivityError> {
             let demands =
                 of_row.iter().map(|ran| ran.kept.clone()).collect::<Result<Vec<_>, _>>()?;
             let figures = request.target.figures(&demands)?;

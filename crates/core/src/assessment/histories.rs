@@ -19,7 +19,7 @@ use crate::response::{
     DemandColumn, DemandShape, Demands, Method, Response, flat_geometry, struck,
 };
 use crate::study::Record;
-use crate::study::cases::{Case, Ran, status};
+use crate::study::cases::{Case, CaseRun, status};
 use crate::study::engine::Engine;
 use crate::table::{Cells, Column, Table};
 
@@ -252,7 +252,7 @@ pub fn run_histories(
                 let alone = alone::of(model, &case, bound, engine).ok().flatten();
                 RunFigures { alone, ..RunFigures::of(bound, judged) }
             });
-            Ran::of(case, kept)
+            CaseRun::of(case, kept)
         };
         let mut ran = engine.runs(cases, run)?.into_iter();
         let on =
@@ -339,7 +339,7 @@ fn on_record(
     model: &ModelOn<'_>,
     (record, scale): (usize, &f64),
     bounds: &[Bound],
-    ran: impl Iterator<Item = Ran<RunFigures>>,
+    ran: impl Iterator<Item = CaseRun<RunFigures>>,
 ) -> OnRecord {
     let several = if bounds.len() > 1 { bounds } else { &[] };
     let in_words = model.suite.in_words(several, &|_| String::new());
@@ -355,7 +355,7 @@ fn on_record(
         sliding: [Vec::new(), Vec::new()],
         notices: notices.clone(),
     };
-    for (bound, Ran { case, kept, .. }) in bounds.iter().zip(ran) {
+    for (bound, CaseRun { case, kept, .. }) in bounds.iter().zip(ran) {
         on.alone.push(kept.as_ref().ok().and_then(|kept| kept.alone));
         let run = kept.map_err(|error| in_words.failed(&case, &error));
         let run = run.map(|kept| on.take(bound, bounds.len() > 1, kept));

@@ -19,7 +19,7 @@ use crate::numerics::fractile;
 use crate::numerics::sort;
 use crate::response::{Response, demand_values};
 use crate::study::Record;
-use crate::study::cases::{Case, OneThread, Ran, status};
+use crate::study::cases::{Case, CaseRun, OneThread, status};
 use crate::study::engine::Engine;
 use crate::table::{Cells, Column, Table};
 
@@ -335,7 +335,7 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
         let (design, bound) = designs.split(kept[curve / records]);
         Case { record, level, design, bound, scale: value / unscaled[record] }
     };
-    let ran: Vec<Vec<(f64, Ran<Vec<f64>>)>> = match (&request.levels, &hunt) {
+    let ran: Vec<Vec<(f64, CaseRun<Vec<f64>>)>> = match (&request.levels, &hunt) {
         (IdaLevels::Fixed(levels), _) => {
             let of =
                 |curve| levels.iter().copied().enumerate().map(move |level| case(curve, level));
@@ -347,7 +347,7 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
         (_, Some(hunt)) => {
             engine.plan(curves_count as u64 * RUNS_OF_A_HUNT);
             engine.map(curves_count, |curve| {
-                let mut runs: Vec<(f64, Ran<Vec<f64>>)> = Vec::new();
+                let mut runs: Vec<(f64, CaseRun<Vec<f64>>)> = Vec::new();
                 let mut thread = OneThread::new(&all_runs);
                 let parts = &parts[curve / records];
                 hunt.try_run(|level| {
@@ -364,15 +364,16 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
         }
         (IdaLevels::Hunt { .. }, None) => Vec::new(),
     };
-    let curve = |runs: &Vec<(f64, Ran<Vec<f64>>)>| {
-        let demand = |ran: &Ran<Vec<f64>>| ran.kept.as_ref().map_or(f64::NAN, |v| v[column].abs());
+    let curve = |runs: &Vec<(f64, CaseRun<Vec<f64>>)>| {
+        let demand =
+            |ran: &CaseRun<Vec<f64>>| ran.kept.as_ref().map_or(f64::NAN, |v| v[column].abs());
         Curve {
             levels: runs.iter().map(|(level, _)| *level).collect(),
             demands: runs.iter().map(|(_, ran)| demand(ran)).collect(),
         }
     };
     let curves: Vec<Curve> = ran.iter().map(curve).collect();
-    let (levels, flat): (Vec<f64>, Vec<Ran<Vec<f64>>>) = ran.into_iter().flatten().unzip();
+    let (levels, flat): (Vec<f64>, Vec<CaseRun<Vec<f64>>>) = ran.into_iter().flatten().unzip();
     let label = |design: usize| models.grid().label(design);
     let in_words = suite.in_words(request.bounds, &label);
     let (failures, warnings) = (in_words.failures(&flat), in_words.noticed(&flat));
@@ -415,7 +416,7 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
     let of_runs: Vec<usize> = flat.iter().map(|ran| designs.number(&ran.case)).collect();
     rows.columns.extend(designs.table(&of_runs).columns);
     for (i, column) in models.columns().iter().enumerate() {
-        let of = |ran: &Ran<Vec<f64>>| ran.kept.as_ref().map_or(f64::NAN, |values| values[i]);
+        let of = |ran: &CaseRun<Vec<f64>>| ran.kept.as_ref().map_or(f64::NAN, |values| values[i]);
         rows.numbers(&column.name(), column.unit(), flat.iter().map(of).collect());
     }
     rows.texts("status", flat.iter().map(|ran| status(ran.kept.as_ref().err())).collect());

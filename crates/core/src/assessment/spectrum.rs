@@ -14,7 +14,7 @@ use crate::notice::Notice;
 use crate::numerics::fractile::fractiles;
 use crate::response::{DemandColumn, Response, demand_values};
 use crate::study::Record;
-use crate::study::cases::{Case, Ran, status};
+use crate::study::cases::{Case, CaseRun, status};
 use crate::study::engine::Engine;
 use crate::table::Table;
 
@@ -309,7 +309,7 @@ pub fn run_spectrum(
     rows.numbers("scale", "", of_runs.iter().map(|&record| factors[record]).collect());
     coordinates(&mut rows, records);
     for (i, column) in models.columns().iter().enumerate() {
-        let of = |ran: &Ran<Run>| ran.kept.as_ref().map_or(f64::NAN, |run| run.demands[i]);
+        let of = |ran: &CaseRun<Run>| ran.kept.as_ref().map_or(f64::NAN, |run| run.demands[i]);
         rows.numbers(&column.name(), column.unit(), runs.iter().map(of).collect());
     }
     for (k, key) in ratio_keys.iter().enumerate() {

@@ -1,11 +1,10 @@
 //! The printed demands and events, compared with those of the check's own path.
 
 use super::events::{Events, JudgedEvent};
-use super::outputs::{
-    BASE_SHEAR, BLOCK, FRICTION, OVERTURNING, Outputs, SLIDER, STOP, STOREYS, VELOCITY,
-};
+use super::outputs::Outputs;
 use super::structure::larger;
 use crate::model::{Model, StopKind};
+use crate::response::output::Output;
 use crate::response::{
     Contact, Demands, Event, EventKind, History, Method, Mode, Response, SurfaceDemands,
 };
@@ -74,7 +73,8 @@ pub(super) struct Recomputed<'a> {
 
 impl Recomputed<'_> {
     /// Least and largest peak of an output, and its scale.
-    fn peak(&self, i: usize) -> [f64; 3] {
+    fn peak(&self, output: Output) -> [f64; 3] {
+        let i = self.outputs.place(output);
         [self.peaks[i], self.possible[i].max(self.peaks[i]), self.scales[i]]
     }
 }
@@ -205,11 +205,11 @@ fn of_peaks(
 ) {
     let (weight_n, n) = (model.weight_n(), model.points());
     let (force_n, near_m) = (rounding.force_n, rounding.displacement_m);
-    let over = |i: usize, divisor: f64| own.peak(i).map(|peak| peak / divisor);
+    let over = |output: Output, divisor: f64| own.peak(output).map(|peak| peak / divisor);
     let near = rounding.velocity_m_per_s;
-    c.within(d.peak_sliding_velocity_m_per_s, own.peak(VELOCITY), near);
+    c.within(d.peak_sliding_velocity_m_per_s, own.peak(Output::Velocity), near);
     let near = force_n / model.block().mass_kg;
-    c.within(d.peak_block_acceleration_m_per_s2, own.peak(BLOCK), near);
+    c.within(d.peak_block_acceleration_m_per_s2, own.peak(Output::Block), near);
     // What rounding of forces makes of an acceleration: of a point through the oscillators of its modes.
     let of_mode = |i: usize| {
         let modes = model.structure().into_iter().flat_map(|structure| &structure.modes);
@@ -219,24 +219,24 @@ fn of_peaks(
         Some(_) => 1.0 / (of_mode(i) + 1.0 / model.block().mass_kg),
         None => model.frame().masses_kg[i],
     };
-    for (printed, coefficient, i) in [
-        (d.peak_base_shear_n, d.base_shear_coefficient, BASE_SHEAR),
-        (d.peak_friction_force_n, d.friction_coefficient_used, FRICTION),
-        (d.peak_slider_force_n, d.slider_force_coefficient, SLIDER),
+    for (printed, coefficient, output) in [
+        (d.peak_base_shear_n, d.base_shear_coefficient, Output::BaseShear),
+        (d.peak_friction_force_n, d.friction_coefficient_used, Output::Friction),
+        (d.peak_slider_force_n, d.slider_force_coefficient, Output::Slider),
     ] {
-        c.within(printed, own.peak(i), force_n);
-        c.within(coefficient, over(i, weight_n), force_n / weight_n);
+        c.within(printed, own.peak(output), force_n);
+        c.within(coefficient, over(output, weight_n), force_n / weight_n);
     }
     let points = if model.structure().is_some() { &d.points } else { &d.storeys };
     for (i, storey) in points.iter().enumerate().take(n) {
-        c.within(storey.peak_displacement_m, own.peak(STOREYS + i), near_m);
-        c.within(storey.peak_drift_m, own.peak(STOREYS + n + i), near_m);
+        c.within(storey.peak_displacement_m, own.peak(Output::Displacement(i)), near_m);
+        c.within(storey.peak_drift_m, own.peak(Output::Drift(i)), near_m);
         let near = force_n / mass_kg(i);
-        c.within(storey.peak_acceleration_m_per_s2, own.peak(STOREYS + 2 * n + i), near);
+        c.within(storey.peak_acceleration_m_per_s2, own.peak(Output::Acceleration(i)), near);
     }
     for (i, storey) in points.iter().enumerate().take(n) {
         let height_m = model.rise_m(i);
-        let ratio = height_m.map(|height_m| over(STOREYS + n + i, height_m));
+        let ratio = height_m.map(|height_m| over(Output::Drift(i), height_m));
         c.optional(storey.peak_drift_ratio, ratio, near_m / height_m.unwrap_or(1.0));
     }
     c.same(d.storeys.len() + d.points.len() == n && points.len() == n);
@@ -244,7 +244,7 @@ fn of_peaks(
     c.optional(d.gap_ratio, ratio, near_m / own.gap_m.unwrap_or(1.0));
     let width_m = own.width_m.filter(|_| own.outputs.has_moment());
     let moment = width_m.map(|width_m| 0.5 * width_m * weight_n);
-    let ratio = moment.map(|moment| over(OVERTURNING, moment));
+    let ratio = moment.map(|moment| over(Output::Overturning, moment));
     let near = own.outputs.height_m(model) * force_n;
     c.optional(d.overturning_ratio, ratio, near / moment.unwrap_or(1.0));
 }
@@ -258,12 +258,12 @@ fn of_contents(
 ) {
     let contents = model.contents();
     c.same(d.contents.len() == contents.len());
-    let peaks = &own.peaks[own.outputs.of_contents()..];
     for (e, (printed, given)) in d.contents.iter().zip(contents).enumerate() {
         let places = (0..h.len()).map(|k| h.contents_state(k, e)[0]);
         let [peak_m, _, _, last_m] = extremes(places);
         let (sums, near_m) = (own.totals.interfaces[1 + e], rounding.displacement_m);
-        let [fast, rough] = [peaks[e], peaks[contents.len() + e]];
+        let [fast, rough] = [Output::ContentsVelocity(e), Output::ContentsAcceleration(e)]
+            .map(|output| own.peaks[own.outputs.place(output)]);
         c.number(printed.peak_sliding_displacement_m, peak_m, near_m, peak_m);
         c.number(printed.residual_sliding_displacement_m, last_m, near_m, peak_m);
         c.number(printed.sliding_path_m, sums.path_m, near_m, sums.path_m);
@@ -330,9 +330,10 @@ fn of_stop(
             let of = |kind: EventKind| own.events.list.iter().filter(move |e| e.event.kind == kind);
             let touched = of(EventKind::Contact).fold(0.0, |p: f64, e| p.max(e.speed));
             let speed = if rigid { own.events.impacts } else { touched };
+            let force_n = own.peaks[own.outputs.of_stop()];
             c.same(stop.contact_count == of(EventKind::Contact).count() as u64);
             c.same(stop.impact_count == of(EventKind::Impact).count() as u64);
-            c.number(stop.peak_force_n, own.peaks[STOP], rounding.force_n, own.peaks[STOP]);
+            c.number(stop.peak_force_n, force_n, rounding.force_n, force_n);
             let near = rounding.velocity_m_per_s;
             c.number(stop.peak_impact_speed_m_per_s, speed, near, speed);
             let own = own.totals.contact_s;

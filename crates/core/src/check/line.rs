@@ -24,12 +24,12 @@ use super::collocation::Rule;
 use super::demands::{self, Comparison, Recomputed, Rounding};
 use super::energy::Books;
 use super::judge::{Directions, Given, Judge, Run, Sizes};
-use super::outputs::{BLOCK, VELOCITY};
 use super::structure::{Phase, Structure, excess, larger};
 use super::{ClosestCall, DecisionKind};
 use crate::error::Stopped;
 use crate::progress::{Pulse, UNWATCHED};
 use crate::response::Mode;
+use crate::response::output::{BLOCK, VELOCITY};
 use crate::slider::Direction;
 
 /// What a judgement in one direction needs besides.

@@ -3,17 +3,7 @@
 use super::collocation::{POINTS, Rule};
 use super::lane::Lane;
 use crate::model::{Contents, Model};
-
-/// Places of the tracked outputs; from [`STOREYS`] on displacements of all storeys, then drifts, then total
-/// accelerations, then velocities of contents and their total accelerations.
-pub(super) const VELOCITY: usize = 0;
-pub(super) const BLOCK: usize = 1;
-pub(super) const SLIDER: usize = 2;
-pub(super) const FRICTION: usize = 3;
-pub(super) const BASE_SHEAR: usize = 4;
-pub(super) const OVERTURNING: usize = 5;
-pub(super) const STOP: usize = 6;
-pub(super) const STOREYS: usize = 7;
+use crate::response::output::{BASE_SHEAR, BLOCK, FRICTION, OVERTURNING, Output, SLIDER, VELOCITY};
 
 /// `m z` of the block (to its centre), of the floors and of contents.
 struct Arm {
@@ -49,19 +39,25 @@ impl Outputs {
         Self { arm, points, of_modes, contents }
     }
 
-    /// How many there are.
+    /// How many there are, with the force of a stop, which stands last.
     pub(super) fn len(&self) -> usize {
-        self.of_contents() + 2 * self.contents
+        self.of_stop() + 1
+    }
+
+    /// Place of the force of a stop.
+    pub(super) fn of_stop(&self) -> usize {
+        Output::count(self.points, self.contents)
+    }
+
+    /// Place of an output.
+    #[inline(always)]
+    pub(super) fn place(&self, output: Output) -> usize {
+        output.place(self.points)
     }
 
     /// Number of points.
     pub(super) fn points(&self) -> usize {
         self.points
-    }
-
-    /// Place of the first output of contents.
-    pub(super) fn of_contents(&self) -> usize {
-        STOREYS + 3 * self.points
     }
 
     /// Hands on all outputs in their order. Those of the block are its velocity, the forces of slider and
@@ -82,20 +78,21 @@ impl Outputs {
             (SLIDER, slider),
             (FRICTION, friction),
             (BASE_SHEAR, base),
-            (STOP, stop),
+            (self.of_stop(), stop),
         ];
         for (g, value) in fixed {
             out(g, value);
         }
         // The moment about the sliding surface.
         let mut moment = self.arm.as_ref().map(|arm| (arm, block * arm.block));
-        let n = self.points;
         let mut below = None;
-        for i in 0..n {
+        for i in 0..self.points {
             let [q, total] = point(i);
-            out(STOREYS + i, q);
-            out(STOREYS + n + i, below.map_or(q, |below| q - below));
-            out(STOREYS + 2 * n + i, total - slope);
+            out(self.place(Output::Displacement(i)), q);
+            if let Some(below) = below {
+                out(self.place(Output::Drift(i)), q - below);
+            }
+            out(self.place(Output::Acceleration(i)), total - slope);
             below = Some(q);
             if let Some((arm, sum)) = &mut moment {
                 *sum += total * arm.floors[i];
@@ -103,8 +100,8 @@ impl Outputs {
         }
         for e in 0..self.contents {
             let [velocity, total] = carried(e);
-            out(self.of_contents() + e, velocity);
-            out(self.of_contents() + self.contents + e, total - slope);
+            out(self.place(Output::ContentsVelocity(e)), velocity);
+            out(self.place(Output::ContentsAcceleration(e)), total - slope);
             if let Some((arm, sum)) = &mut moment {
                 *sum += total * arm.contents[e];
             }

@@ -5,7 +5,6 @@
 //! acceleration with the slope, `s̈ + a`.
 
 use super::damping::modal_damping;
-use super::outputs::STOREYS;
 use crate::model::{Contents, Damping, Model, StopKind};
 
 /// Which equations hold: the block rests on the table, or slides over it.
@@ -32,8 +31,8 @@ pub(super) struct Structure {
     pub(super) masses_kg: Vec<f64>,
     /// Whether each of them stands on the block, as the oscillators of modes do, not on the one below.
     pub(super) on_block: bool,
-    /// Place of the first output of contents.
-    pub(super) of_contents: usize,
+    /// Number of points.
+    pub(super) points: usize,
     /// What moves with each degree: the momentum is their sum with the velocities.
     pub(super) moved_kg: Vec<f64>,
     pub(super) spring: f64,
@@ -89,7 +88,7 @@ impl Structure {
             total_kg: model.total_mass_kg(),
             masses_kg: m.clone(),
             on_block,
-            of_contents: STOREYS + 3 * model.points(),
+            points: model.points(),
             spring: match model.slider().pendulum_radius_m(vertical).filter(|_| vertical) {
                 Some(_) => 0.0,
                 None => model.slider_stiffness_n_per_m(),

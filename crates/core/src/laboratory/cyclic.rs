@@ -624,7 +624,7 @@ fn estimates_of(
         let path = name("kinetic", ways[way]);
         estimates.push(match (mean_interval(&values, 0.0), &by_way) {
             (_, Err(why)) if way > 0 && slides => Estimate::refused(path, unit, *why),
-            (Some((value, ends)), _) if slides => Estimate::told(path, unit, value, ends),
+            (Some((value, ends)), _) if slides => Estimate::determined(path, unit, value, ends),
             _ => Estimate::refused(path, unit, why_not.clone().unwrap_or_default()),
         });
     }
@@ -636,7 +636,7 @@ fn estimates_of(
             (Some(_), Err(why)) if way > 0 && slides && enough => {
                 Estimate::refused(path, unit, *why)
             }
-            (Some((value, ends)), _) if slides && enough => Estimate::told(path, unit, value, ends),
+            (Some((value, ends)), _) if slides && enough => Estimate::determined(path, unit, value, ends),
             _ => {
                 let why = format!(
                     "only {values} of {} cycles show a breakaway that is clear of noise and sampling",
@@ -648,12 +648,12 @@ fn estimates_of(
     }
     let springs: Vec<f64> = cycles.iter().filter_map(|cycle| cycle.spring_n_per_m).collect();
     if let Some((value, ends)) = mean_interval(&springs, 0.0) {
-        estimates.push(Estimate::told("slider.spring", "N/m", value, ends));
+        estimates.push(Estimate::determined("slider.spring", "N/m", value, ends));
     }
     let dampers: Vec<f64> = cycles.iter().filter_map(|cycle| cycle.damper_n_s_per_m).collect();
     match mean_interval(&dampers, 0.0) {
         Some((value, ends)) if dampers.len() >= LEAST_CYCLES => {
-            estimates.push(Estimate::told("slider.damper", "N s/m", value, ends));
+            estimates.push(Estimate::determined("slider.damper", "N s/m", value, ends));
         }
         _ if fits.iter().any(|fit| fit.damper_sought) => {
             let why =
@@ -766,7 +766,7 @@ fn per_hz(cycles: &[&Cycle], over_n: f64, unit: &'static str) -> Option<Estimate
     let half = student_quantile(0.95, freedom) * (fit.sse / freedom * fit.covariance[1][1]).sqrt();
     let slope = fit.coefficients[1];
     let unit = if unit.is_empty() { "1/Hz" } else { "N/Hz" };
-    Some(Estimate::told(
+    Some(Estimate::determined(
         "kinetic friction over frequency",
         unit,
         slope,

@@ -33,7 +33,12 @@ pub enum Outcome {
 impl Estimate {
     /// An estimate with its interval.
     #[must_use]
-    pub fn told(path: impl Into<String>, unit: &'static str, value: f64, ends: [f64; 2]) -> Self {
+    pub fn determined(
+        path: impl Into<String>,
+        unit: &'static str,
+        value: f64,
+        ends: [f64; 2],
+    ) -> Self {
         let [low, high] = ends;
         Self { path: path.into(), unit, outcome: Outcome::Told { value, low, high } }
     }

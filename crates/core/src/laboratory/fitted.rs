@@ -152,17 +152,18 @@ mod tests {
 
     #[test]
     fn what_is_set_and_what_is_not() {
-        let told = |path: &str, value: f64, low: f64| Estimate::told(path, "", value, [low, 1.0]);
+        let told =
+            |path: &str, value: f64, low: f64| Estimate::determined(path, "", value, [low, 1.0]);
         let refused = |path: &str| Estimate::refused(path, "", "because");
         let (set, warnings) = paths(&[
             told("slider.kinetic_friction", 0.15, 0.14),
-            Estimate::told("slider.kinetic_friction.positive", "", 0.16, [0.155, 0.165]),
-            Estimate::told("slider.kinetic_friction.negative", "", 0.14, [0.135, 0.145]),
+            Estimate::determined("slider.kinetic_friction.positive", "", 0.16, [0.155, 0.165]),
+            Estimate::determined("slider.kinetic_friction.negative", "", 0.14, [0.135, 0.145]),
             refused("slider.static_friction"),
             refused("slider.static_friction.positive"),
             told("slider.static_friction.negative", 0.17, 0.13),
-            Estimate::told("slider.spring", "N/m", 3.0, [-1.0, 7.0]),
-            Estimate::told("slider.damper", "N s/m", 3.0, [0.0, 7.0]),
+            Estimate::determined("slider.spring", "N/m", 3.0, [-1.0, 7.0]),
+            Estimate::determined("slider.damper", "N s/m", 3.0, [0.0, 7.0]),
             refused("slider.tilt"),
         ]);
         assert_eq!(
@@ -177,7 +178,7 @@ mod tests {
         );
         assert_eq!(warnings, ["static_taken_as_kinetic", "not_clear_of_zero"]);
         // Friction that follows the speed: all of it, or none.
-        let told = |path: &str, value: f64| Estimate::told(path, "", value, [0.0, 1.0]);
+        let told = |path: &str, value: f64| Estimate::determined(path, "", value, [0.0, 1.0]);
         let slow_fast = |rate: Estimate| {
             let slow = told("slider.kinetic_friction.slow", 0.05);
             paths(&[slow, told("slider.kinetic_friction.fast", 0.1), rate, told(LIMIT, 0.06)])
@@ -193,9 +194,9 @@ mod tests {
         let all = [
             told("slider.kinetic_friction.slow", 0.05),
             told("slider.kinetic_friction.fast", 0.1),
-            Estimate::told(RATE, "s/m", 20.0, [19.0, 21.0]),
+            Estimate::determined(RATE, "s/m", 20.0, [19.0, 21.0]),
             told(LIMIT, 0.06),
-            Estimate::told("slider.spring", "N/m", 1e4, [9e3, 1.1e4]),
+            Estimate::determined("slider.spring", "N/m", 1e4, [9e3, 1.1e4]),
         ];
         let expected = "[slider]\nstatic_friction = 0.06\nkinetic_friction = { slow = 0.05, fast = \
                         0.1, rate = \"20.0 s/m\" }\nspring = \"10000.0 N/m\"\n";
@@ -209,7 +210,7 @@ mod tests {
         }
         // Where the directions agree, one number is enough.
         let near = |way: &str| {
-            Estimate::told(format!("slider.kinetic_friction{way}"), "", 0.1, [0.09, 0.11])
+            Estimate::determined(format!("slider.kinetic_friction{way}"), "", 0.1, [0.09, 0.11])
         };
         let (set, _) = paths(&[near(""), near(".positive"), near(".negative")]);
         assert_eq!(set, ["slider.kinetic_friction"]);

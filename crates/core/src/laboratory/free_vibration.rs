@@ -97,11 +97,11 @@ pub fn free_vibration(times_s: &[f64], values: &[f64]) -> FreeVibration {
     let [f, xi] = [0, 1].map(|k| problem.parameters(&minimum.unit)[k]);
     let path = ["storey.1.frequency", "storey.1.damping_ratio"];
     let frequency = match intervals[0] {
-        Some((ends, [false, false])) => Estimate::told(path[0], "Hz", f, ends),
+        Some((ends, [false, false])) => Estimate::determined(path[0], "Hz", f, ends),
         _ => Estimate::refused(path[0], "Hz", "frequencies a quarter away fit as well"),
     };
     let damping_ratio = match intervals[1] {
-        Some((ends, [false, false])) => Estimate::told(path[1], "", xi, ends),
+        Some((ends, [false, false])) => Estimate::determined(path[1], "", xi, ends),
         Some((ends, [true, false])) => {
             let why =
                 format!("it cannot be distinguished from zero: it is at most {:.2e}", ends[1]);
@@ -282,7 +282,7 @@ mod tests {
     #[ignore = "200 records: cargo xtask coverage"]
     fn coverage_free_vibration() {
         let [f, xi, refused] = covered(200);
-        crate::laboratory::told(&[("frequency", f), ("damping_ratio", xi)], refused);
+        crate::laboratory::hold_to_coverage(&[("frequency", f), ("damping_ratio", xi)], refused);
     }
 
     #[test]

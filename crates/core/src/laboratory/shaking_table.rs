@@ -466,7 +466,7 @@ fn estimate(
     {
         ends[0] = ends[0].max(kinetic).min(value);
     }
-    Estimate::told(parameter.path.clone(), parameter.unit, value, ends)
+    Estimate::determined(parameter.path.clone(), parameter.unit, value, ends)
 }
 
 #[cfg(test)]

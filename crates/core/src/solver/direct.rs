@@ -15,7 +15,6 @@ use self::peaks::{Peaks, history};
 use super::course::Course;
 use super::ground::{Ground, Stretch};
 use super::instructions::InstructionSet;
-use super::outputs::output;
 use super::phase::{Phase, Reached, Segment, Straight, fitting};
 use super::slider::{ROUNDING, SliderState};
 use super::tables::system_of;
@@ -25,6 +24,7 @@ use crate::linear::polynomial::{DEGREE, Polynomial};
 use crate::model::Model;
 use crate::notice::{Notice, NoticeKind};
 use crate::progress::{GoOn, Pulse};
+use crate::response::output::{self, Output};
 use crate::response::{ContentsDemands, Event, EventKind, History, Mode};
 use crate::slider::{Coefficient, Hold, Law, Restraint, SlipForce};
 
@@ -33,7 +33,7 @@ use super::summary::Outcome;
 /// What an analysis leaves behind.
 pub(super) struct Stepped {
     pub(super) outcome: Outcome,
-    /// Peaks in the order of [`rows`](super::outputs::rows).
+    /// Peaks in the order of [`Output::all`].
     pub(super) peaks: Vec<f64>,
     pub(super) contents: Vec<ContentsDemands>,
     pub(super) history: Option<History>,
@@ -93,7 +93,7 @@ fn stepped(walk: Walk<'_, Direct<'_>>) -> Stepped {
         }
     };
     let contents = phase.body.part_of.iter().map(of_part).collect();
-    let mut outcome = walk.outcome(phase.peaks.overturns);
+    let mut outcome = walk.outcome(phase.peaks.arms.is_some());
     outcome.events = events_of_items(&phase.body, &outcome.events);
     let warnings = outcome.first_impact_s.map(|time_s| {
         Notice::new(
@@ -180,7 +180,7 @@ impl<'a> Direct<'a> {
             ahead: Ahead::default(),
             series: body.scratch(),
             instant: body.scratch(),
-            peaks: Peaks::new(model, count),
+            peaks: Peaks::new(model, &body.contents),
             x,
             modes: vec![Mode::Stick; 1 + count],
             force: law.hold(&law.initial(0.0, 0.0), 0.0).force(),
@@ -425,7 +425,7 @@ impl<'a> Straight<'a> for Direct<'a> {
         }
         if floor > 0 {
             let restoring = self.body.restoring_size(&self.x, floor) / mass_kg;
-            let largest = y[output::acceleration(self.body.storeys(), floor - 1)];
+            let largest = y[Output::Acceleration(floor - 1).place(self.body.storeys())];
             terms += restoring.max(largest) + size(&p.floors[floor - 1]);
         } else if self.modes[0] == Mode::Stick && interface > 0 {
             terms += size(&p.ground);

@@ -20,7 +20,7 @@ use self::series::Motion;
 use super::course::Course;
 use super::dense::{self, Dense};
 use super::ground::{Ground, Normal, Roughness, Stretch};
-use super::outputs::{Group, output};
+use super::outputs::Group;
 use super::phase::{Phase, Reached, Segment, Straight};
 use super::recorder::{Knot, Recorder};
 use super::slider::ROUNDING;
@@ -31,6 +31,7 @@ use crate::linear::lanes::{Eight, Width, combine8, dot, eight};
 use crate::linear::polynomial::{Polynomial, derivative};
 use crate::linear::{BATCH, Force, Series};
 use crate::response::Mode;
+use crate::response::output::{self, Output};
 use crate::slider::{Affine, Contact, EXITS, Exit, Fading, Hold, Law, Restraint};
 
 pub(super) use self::buffers::Buffers;
@@ -172,7 +173,7 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
         let n = width.modes();
         let [mut x, next] = buffers.states.each_mut().map(|x| Buffers::list(x, stride, 0.0));
         x.copy_from_slice(&tables.start);
-        let outputs = output::count(system.points());
+        let outputs = Output::count(system.points(), 0);
         let groups = outputs.div_ceil(8);
         let values = Buffers::list(&mut buffers.values, groups, Eight::ZERO);
         let [mut amplitudes, f, g] =

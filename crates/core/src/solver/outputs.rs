@@ -1,54 +1,125 @@
-//! The tracked outputs: every number of which the analysis reports a peak, as a row.
+//! What the outputs are: [`Output::of`] says it once, of a motion as rows of the state, as series or at an instant.
 //!
-//! Each is a linear function of the state, the acceleration `a = Ü + g sin θ` and the constant part of
-//! the friction force `T`, with other coefficients in stick than in slip. [`rows`] is the one place that lists them: a
-//! new peak is a row here and a field in [`Demands`](crate::response::Demands). They are looked at
-//! eight at a time.
+//! As a row an output is a linear function of the state, the acceleration `a = Ü + g sin θ` and the constant part
+//! of the friction force `T`, with other coefficients in stick than in slip. Rows are looked at eight at a time.
 
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use crate::linear::System;
 use crate::linear::lanes::{Eight, combine8, dot, eight};
-use crate::model::Model;
+use crate::model::{Contents, Model};
+use crate::response::output::Output;
 use crate::slider::Restraint;
 
-/// Places of the outputs of the block; those of the points follow: floors, or points of a structure by its modes.
-pub(super) mod output {
-    /// `ṡ` in m/s.
-    pub(in crate::solver) const VELOCITY: usize = 0;
-    /// `u = s̈ + a` less the slope's pull in m/s².
-    pub(in crate::solver) const BLOCK: usize = 1;
-    /// All that passes from the table to the block, `M1 u − L·f`, in N.
-    pub(in crate::solver) const SLIDER: usize = 2;
-    /// `T` in N.
-    pub(in crate::solver) const FRICTION: usize = 3;
-    /// `L·f` in N.
-    pub(in crate::solver) const BASE_SHEAR: usize = 4;
-    /// Overturning moment about the sliding surface in N m.
-    pub(in crate::solver) const OVERTURNING: usize = 5;
-    /// Displacements of the storeys, then their accelerations `−Φ_i f` less the slope's pull, then
-    /// drifts from the second storey on: that of the first is its displacement.
-    pub(in crate::solver) const STOREYS: usize = 6;
+/// A number that sums are made of.
+pub(super) trait Linear: Sized {
+    /// Less a constant.
+    fn less(self, constant: f64) -> Self;
+    /// `first + Σ factor × term`, the first with its factor.
+    fn sum(first: (f64, Self), terms: impl Iterator<Item = (f64, Self)>) -> Self;
+}
 
-    /// Number of outputs with `n` storeys.
-    pub(in crate::solver) fn count(n: usize) -> usize {
-        STOREYS + 2 * n + n.saturating_sub(1)
+impl Linear for f64 {
+    fn less(self, constant: f64) -> Self {
+        self - constant
     }
 
-    /// Displacement of storey `i` of `n`.
-    pub(in crate::solver) fn displacement(i: usize) -> usize {
-        STOREYS + i
+    fn sum((factor, first): (f64, Self), terms: impl Iterator<Item = (f64, Self)>) -> Self {
+        terms.fold(factor * first, |sum, (factor, term)| sum + factor * term)
+    }
+}
+
+/// What outputs are made of; accelerations are total ones with the slope's pull.
+pub(super) trait Quantities {
+    type Value: Linear;
+    /// What is not asked for.
+    fn zero(&self) -> Self::Value;
+    /// `ṡ`.
+    fn velocity(&self) -> Self::Value;
+    /// `u`.
+    fn block(&self) -> Self::Value;
+    /// What passes from the table to the block.
+    fn slider(&self) -> Self::Value;
+    /// `T`.
+    fn friction(&self) -> Self::Value;
+    /// `L·f`.
+    fn base_shear(&self) -> Self::Value;
+    /// Displacement of a point.
+    fn displacement(&self, point: usize) -> Self::Value;
+    /// Displacement of a point over the one before it, which is not the first.
+    fn drift(&self, point: usize) -> Self::Value;
+    /// Acceleration of a point.
+    fn acceleration(&self, point: usize) -> Self::Value;
+    /// Sliding velocity and acceleration of contents.
+    fn contents(&self, number: usize) -> [Self::Value; 2];
+}
+
+impl Output {
+    /// Its value in a motion, the overturning moment by these arms, accelerations less the slope's pull.
+    pub(super) fn of<M: Quantities>(self, motion: &M, arms: Option<&Arms>, slope: f64) -> M::Value {
+        match self {
+            Self::Velocity => motion.velocity(),
+            Self::Block => motion.block().less(slope),
+            Self::Slider => motion.slider(),
+            Self::Friction => motion.friction(),
+            Self::BaseShear => motion.base_shear(),
+            Self::Overturning => {
+                let Some(arms) = arms else { return motion.zero() };
+                let points = arms.points.iter().enumerate();
+                let contents = arms.contents.iter().enumerate();
+                let of_contents = contents.map(|(e, arm)| {
+                    let [_, acceleration] = motion.contents(e);
+                    (*arm, acceleration)
+                });
+                let of_points = points.map(|(i, arm)| (*arm, motion.acceleration(i)));
+                Linear::sum((arms.block, motion.block()), of_points.chain(of_contents))
+            }
+            Self::Displacement(i) | Self::Drift(i @ 0) => motion.displacement(i),
+            Self::Acceleration(i) => motion.acceleration(i).less(slope),
+            Self::Drift(i) => motion.drift(i),
+            Self::ContentsVelocity(e) => {
+                let [velocity, _] = motion.contents(e);
+                velocity
+            }
+            Self::ContentsAcceleration(e) => {
+                let [_, acceleration] = motion.contents(e);
+                acceleration.less(slope)
+            }
+        }
+    }
+}
+
+/// Mass times height above the sliding surface of all that has inertia, in kg m.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Arms {
+    pub(super) block: f64,
+    pub(super) points: Vec<f64>,
+    /// Of contents, which may be fewer than the model's where some slide as one.
+    pub(super) contents: Vec<f64>,
+}
+
+impl Arms {
+    /// Where width and heights are given: else no moment is asked for.
+    pub(super) fn new(model: &Model, contents: &[Contents]) -> Option<Self> {
+        model.block().width_m?;
+        let (points, block_m) = (model.lever_arms()?, model.block().height_m.unwrap_or(0.0));
+        let height_m = |floor: usize| floor.checked_sub(1).map_or(block_m, |i| points[i][1]);
+        Some(Self {
+            block: 0.5 * block_m * model.bare_block_kg(),
+            contents: contents.iter().map(|c| c.mass_kg * height_m(c.floor)).collect(),
+            points: points.iter().map(|[mass_kg, above_m]| mass_kg * above_m).collect(),
+        })
     }
 
-    /// Acceleration of floor `i` of `n`.
-    pub(in crate::solver) fn acceleration(n: usize, i: usize) -> usize {
-        STOREYS + n + i
-    }
-
-    /// Drift of storey `i` of `n`.
-    pub(in crate::solver) fn drift(n: usize, i: usize) -> usize {
-        if i == 0 { displacement(0) } else { STOREYS + 2 * n + i - 1 }
+    /// What `f` of each mode adds to the moment, with a minus sign, and what the block's acceleration adds.
+    pub(super) fn by_modes(&self, system: &System) -> (Vec<f64>, f64) {
+        let (mut of_f, mut of_block) = (vec![0.0; system.modes()], self.block);
+        for (i, point) in self.points.iter().enumerate() {
+            of_f.iter_mut().zip(system.point(i)).for_each(|(sum, shape)| *sum += point * shape);
+            of_block += point * system.with_block(i);
+        }
+        (of_f, of_block)
     }
 }
 
@@ -67,136 +138,149 @@ pub(super) struct OutputRow {
     pub(super) constant: f64,
 }
 
-/// What the model adds to the system for its outputs.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Overturning {
-    /// Masses of the floors times their heights, `Φᵀ z`.
-    arm: Vec<f64>,
-    /// Half the block's mass times its height, with what of the points' motion is the block's.
-    block: f64,
-}
-
-impl Overturning {
-    /// What `f` of one storey and the block's acceleration add.
-    pub(super) fn arms(&self) -> [f64; 2] {
-        [self.arm[0], self.block]
+impl OutputRow {
+    fn plus(mut self, factor: f64, other: &Self) -> Self {
+        self.state.iter_mut().zip(&other.state).for_each(|(sum, c)| *sum += factor * c);
+        self.of_a += factor * other.of_a;
+        self.of_friction += factor * other.of_friction;
+        self.of_stop += factor * other.of_stop;
+        self.constant += factor * other.constant;
+        self
     }
 
-    /// What `f` of each mode and the block's acceleration add.
-    pub(super) fn all(&self) -> (&[f64], f64) {
-        (&self.arm, self.block)
-    }
-
-    /// The moment of the inertia of floors and block about the sliding surface, in N m.
-    pub(super) fn moment(&self, f: &[f64], u: f64) -> f64 {
-        self.block * u - dot(&self.arm, f)
+    fn times(mut self, factor: f64) -> Self {
+        self.state.iter_mut().for_each(|c| *c *= factor);
+        let Self { of_a, of_friction, of_stop, constant, .. } = &mut self;
+        [of_a, of_friction, of_stop, constant].into_iter().for_each(|c| *c *= factor);
+        self
     }
 }
 
-/// Moment arms of the floors' and the block's inertia, where width and heights are given.
-pub(super) fn overturning(model: &Model, system: &System) -> Option<Overturning> {
-    model.block().width_m?;
-    let mut arm = vec![0.0; system.modes()];
-    let mut block = 0.5 * model.block().height_m.unwrap_or(0.0) * model.bare_block_kg();
-    for (i, [mass_kg, above_m]) in model.lever_arms()?.into_iter().enumerate() {
-        for (arm, shape) in arm.iter_mut().zip(system.point(i)) {
-            *arm += mass_kg * above_m * shape;
+impl Linear for OutputRow {
+    fn less(self, constant: f64) -> Self {
+        Self { constant: self.constant - constant, ..self }
+    }
+
+    fn sum((factor, first): (f64, Self), terms: impl Iterator<Item = (f64, Self)>) -> Self {
+        terms.fold(first.times(factor), |sum, (factor, term)| sum.plus(factor, &term))
+    }
+}
+
+/// The motion as rows, of stick or of slip with what of its restraint is friction.
+struct Rows<'a> {
+    system: &'a System,
+    slip: Option<&'a Restraint>,
+}
+
+impl Rows<'_> {
+    /// `y·η`.
+    fn of_eta(&self, y: &[f64]) -> OutputRow {
+        let mut row = self.zero();
+        row.state[2..2 + y.len()].copy_from_slice(y);
+        row
+    }
+
+    /// `factor y·f`, with `f` by `Ω` and `D`.
+    fn of_f(&self, y: &[f64], factor: f64) -> OutputRow {
+        let (system, n) = (self.system, self.system.modes());
+        let mut row = self.zero();
+        let (of_eta, of_rate) = row.state[2..2 + 2 * n].split_at_mut(n);
+        system.restoring(&vec![0.0; n], y, of_rate);
+        for j in 0..n {
+            of_eta[j] = factor * (system.omega2[j] * y[j]);
+            of_rate[j] *= factor;
         }
-        block += mass_kg * above_m * system.with_block(i);
+        row
     }
-    Some(Overturning { arm, block })
+}
+
+impl Quantities for Rows<'_> {
+    type Value = OutputRow;
+
+    fn zero(&self) -> OutputRow {
+        let stride = (2 + 2 * self.system.modes()).div_ceil(4) * 4;
+        let state = vec![0.0; stride];
+        OutputRow { state, of_a: 0.0, of_friction: 0.0, of_stop: 0.0, constant: 0.0 }
+    }
+
+    fn velocity(&self) -> OutputRow {
+        let mut row = self.zero();
+        if self.slip.is_some() {
+            row.state[1] = 1.0;
+        }
+        row
+    }
+
+    /// In slip `(T − stop − c ṡ − k s + L·f) / M1`, in stick `a`.
+    fn block(&self) -> OutputRow {
+        let (system, per_mass) = (self.system, self.system.per_block_mass);
+        if self.slip.is_none() {
+            return OutputRow { of_a: 1.0, ..self.zero() };
+        }
+        let mut row = self.of_f(&system.participation, per_mass);
+        row.state[0] = -system.stiffness_n_per_m * per_mass;
+        row.state[1] = -system.damper_n_s_per_m * per_mass;
+        OutputRow { of_friction: per_mass, of_stop: -per_mass, ..row }
+    }
+
+    /// In slip `T − stop − c ṡ − k s`, in stick `M1 a − L·f`.
+    fn slider(&self) -> OutputRow {
+        let system = self.system;
+        if self.slip.is_none() {
+            let row = self.of_f(&system.participation, -1.0);
+            return OutputRow { of_a: system.block_mass_kg, ..row };
+        }
+        let mut row = OutputRow { of_friction: 1.0, of_stop: -1.0, ..self.zero() };
+        (row.state[0], row.state[1]) = (-system.stiffness_n_per_m, -system.damper_n_s_per_m);
+        row
+    }
+
+    /// In slip with what of the restraint is friction, in stick the rest of what passes.
+    fn friction(&self) -> OutputRow {
+        let Some(slip) = self.slip else {
+            let mut row = OutputRow { of_stop: 1.0, ..self.slider() };
+            row.state[0] = self.system.stiffness_n_per_m;
+            return row;
+        };
+        let mut row = OutputRow { of_friction: 1.0, ..self.zero() };
+        (row.state[0], row.state[1]) = (-slip.stiffness_n_per_m, -slip.damper_n_s_per_m);
+        row
+    }
+
+    fn base_shear(&self) -> OutputRow {
+        self.of_f(&self.system.participation, 1.0)
+    }
+
+    fn displacement(&self, point: usize) -> OutputRow {
+        self.of_eta(self.system.point(point))
+    }
+
+    fn drift(&self, point: usize) -> OutputRow {
+        self.of_eta(self.system.point_drift(point))
+    }
+
+    /// `−Φ_i f`, and with the block what of the point's motion is the block's.
+    fn acceleration(&self, point: usize) -> OutputRow {
+        let (system, part) = (self.system, self.system.with_block(point));
+        let row = self.of_f(system.point(point), -1.0);
+        if part == 0.0 { row } else { row.plus(part, &self.block()) }
+    }
+
+    /// Tables serve no contents.
+    fn contents(&self, _: usize) -> [OutputRow; 2] {
+        [self.zero(), self.zero()]
+    }
 }
 
 /// All outputs of stick, or of slip with what of its restraint is friction, in their order.
 pub(super) fn rows(
     system: &System,
     slip: Option<&Restraint>,
-    overturning: Option<&Overturning>,
+    arms: Option<&Arms>,
     slope: f64,
 ) -> Vec<OutputRow> {
-    let n = system.modes();
-    let stride = (2 + 2 * n).div_ceil(4) * 4;
-    let none = || OutputRow {
-        state: vec![0.0; stride],
-        of_a: 0.0,
-        of_friction: 0.0,
-        of_stop: 0.0,
-        constant: 0.0,
-    };
-    // y·η, or y·f by Ω and D, times a factor.
-    let of_eta = |y: &[f64]| {
-        let mut row = none();
-        row.state[2..2 + y.len()].copy_from_slice(y);
-        row
-    };
-    let still = vec![0.0; n];
-    let of_f = |y: &[f64], factor: f64| {
-        let mut row = none();
-        let (of_eta, of_rate) = row.state[2..2 + 2 * n].split_at_mut(n);
-        system.restoring(&still, y, of_rate);
-        for j in 0..n {
-            of_eta[j] = factor * (system.omega2[j] * y[j]);
-            of_rate[j] *= factor;
-        }
-        row
-    };
-    let l = &system.participation;
-    let (mass, per_mass) = (system.block_mass_kg, system.per_block_mass);
-    // u, of which slip has u = (T − stop − c ṡ − k s + L·f) / M1 and stick u = a.
-    let mut u = if slip.is_some() { of_f(l, per_mass) } else { none() };
-    if slip.is_some() {
-        u.state[0] = -system.stiffness_n_per_m * per_mass;
-        u.state[1] = -system.damper_n_s_per_m * per_mass;
-        (u.of_friction, u.of_stop) = (per_mass, -per_mass);
-    } else {
-        u.of_a = 1.0;
-    }
-    let mut velocity = none();
-    let mut slider = if slip.is_some() { none() } else { of_f(l, -1.0) };
-    let mut friction;
-    if let Some(of_friction) = slip {
-        friction = none();
-        velocity.state[1] = 1.0;
-        (slider.state[0], slider.state[1]) = (-system.stiffness_n_per_m, -system.damper_n_s_per_m);
-        (slider.of_friction, slider.of_stop) = (1.0, -1.0);
-        friction.of_friction = 1.0;
-        friction.state[0] = -of_friction.stiffness_n_per_m;
-        friction.state[1] = -of_friction.damper_n_s_per_m;
-    } else {
-        slider.of_a = mass;
-        friction = slider.clone();
-        friction.state[0] = system.stiffness_n_per_m;
-        friction.of_stop = 1.0;
-    }
-    let moment = overturning.map_or_else(none, |moment| {
-        let mut row = of_f(&moment.arm, -1.0);
-        for (row, u) in row.state.iter_mut().zip(&u.state) {
-            *row += moment.block * u;
-        }
-        row.of_a = moment.block * u.of_a;
-        row.of_friction = moment.block * u.of_friction;
-        row.of_stop = moment.block * u.of_stop;
-        row
-    });
-    let points = 0..system.points();
-    // −Φ_i f, and with the block what of the point's motion is the block's.
-    let acceleration = |i: usize| {
-        let (mut row, part) = (of_f(system.point(i), -1.0), system.with_block(i));
-        if part != 0.0 {
-            row.state.iter_mut().zip(&u.state).for_each(|(row, u)| *row += part * u);
-            [row.of_a, row.of_friction, row.of_stop] =
-                [u.of_a, u.of_friction, u.of_stop].map(|u| part * u);
-        }
-        OutputRow { constant: -slope, ..row }
-    };
-    let accelerations: Vec<OutputRow> = points.clone().map(acceleration).collect();
-    let block = OutputRow { constant: -slope, ..u };
-    let mut all = Vec::with_capacity(output::count(system.points()));
-    all.extend([velocity, block, slider, friction, of_f(l, 1.0), moment]);
-    all.extend(points.clone().map(|i| of_eta(system.point(i))));
-    all.extend(accelerations);
-    all.extend(points.skip(1).map(|i| of_eta(system.point_drift(i))));
-    all
+    let rows = Rows { system, slip };
+    Output::all(system.points(), 0).map(|output| output.of(&rows, arms, slope)).collect()
 }
 
 /// The outputs of a phase.

@@ -372,7 +372,9 @@ fn solve_along_x(
     }
     let contact_loss_s = contact_loss_s(motion.times_s(), normal);
     let warnings = summary::warnings(model, &outcome.events, &contact_loss_s);
-    let demands = summary::demands(model, &outcome, |j| workspace.buffers.peaks.attained(j));
+    let demands = summary::demands(model, &outcome, |output| {
+        workspace.buffers.peaks.attained(output.place(model.points()))
+    });
     [workspace.acceleration, workspace.normal_n] = [sloped, varying];
     Ok(Response {
         method: Method::Exact,
@@ -398,7 +400,9 @@ fn stepped(
     let stepped = direct::solve(model, law, ground, instructions, (with_history, go_on))?;
     let mut warnings = summary::warnings(model, &stepped.outcome.events, &contact_loss_s);
     warnings.extend(stepped.warnings);
-    let mut demands = summary::demands(model, &stepped.outcome, |j| stepped.peaks[j]);
+    let mut demands = summary::demands(model, &stepped.outcome, |output| {
+        stepped.peaks[output.place(model.points())]
+    });
     demands.contents = stepped.contents;
     Ok(Response {
         method: Method::Exact,

@@ -5,7 +5,7 @@
 
 use super::course::Sliding;
 use super::ground::{Normal, contact_loss_s, varying_normal};
-use super::outputs::{self, output};
+use super::outputs::{Arms, Quantities};
 use super::recorder::{self, Recorder, Stored};
 use super::slider::Stopping;
 use super::summary;
@@ -17,6 +17,7 @@ use crate::linear::lanes::{dot, greatest};
 use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::progress::{GoOn, Pulse};
+use crate::response::output::Output;
 use crate::response::{Event, EventKind, Iterations, Method, Mode, Response};
 use crate::slider::{Contact, Direction, Law};
 
@@ -71,9 +72,9 @@ pub(super) fn solve(
         tolerance_m_per_s2,
     };
     let n = system.storeys;
-    let overturning = outputs::overturning(model, &system);
+    let arms = Arms::new(model, &[]);
     let mut recorder = Recorder::new(&system, &law, motion.len(), slope);
-    let mut peaks = vec![0.0; output::drift(n, n.max(1)).max(output::STOREYS + 3 * n)];
+    let mut peaks = vec![0.0; Output::count(n, 0)];
     let mut step = program.start(model);
     let mut pulse = Pulse::new(go_on);
     let mut sliding = Sliding::new(step.s);
@@ -82,20 +83,9 @@ pub(super) fn solve(
     let mut events = Vec::new();
     let (mut total, mut most) = (0_u64, 0);
     let mut note = |sample: usize, step: &Step, mode: Mode, row: bool| {
-        let friction_n = program.friction_n(step, sample);
-        let shear_n = dot(&system.participation, &step.f);
-        let mut attain = |j: usize, value: f64| peaks[j] = greatest(peaks[j], f64::abs(value));
-        attain(output::VELOCITY, step.w);
-        attain(output::BLOCK, step.u - slope);
-        attain(output::SLIDER, friction_n - program.restoring_n(step.s, step.w, sample));
-        attain(output::FRICTION, friction_n);
-        attain(output::BASE_SHEAR, shear_n);
-        let moment = overturning.as_ref().map_or(0.0, |o| o.moment(&step.f, step.u));
-        attain(output::OVERTURNING, moment);
-        for i in 0..n {
-            attain(output::displacement(i), dot(system.floor(i), &step.eta));
-            attain(output::acceleration(n, i), -dot(system.floor(i), &step.f) - slope);
-            attain(output::drift(n, i), dot(system.drift(i), &step.eta));
+        let at = AtSample { program: &program, step, sample };
+        for (peak, output) in peaks.iter_mut().zip(Output::all(n, 0)) {
+            *peak = greatest(*peak, f64::abs(output.of(&at, arms.as_ref(), slope)));
         }
         let state = step.state();
         let stored = Stored {
@@ -105,7 +95,7 @@ pub(super) fn solve(
             table: table[sample],
             state: &state,
             block: step.u - slope,
-            friction_n,
+            friction_n: at.friction(),
             f: &step.f,
         };
         recorder.store(&system, &stored, row);
@@ -155,7 +145,7 @@ pub(super) fn solve(
     let warnings = summary::warnings(model, &events, &contact_loss_s);
     let outcome = Outcome {
         events,
-        overturns: overturning.is_some(),
+        overturns: arms.is_some(),
         sliding,
         stop: law.has_stop().then_some(stopping.demands),
         surfaces: Vec::new(),
@@ -165,7 +155,7 @@ pub(super) fn solve(
     };
     Ok(Response {
         method: Method::Stepwise,
-        demands: summary::demands(model, &outcome, |j| peaks[j]),
+        demands: summary::demands(model, &outcome, |output| peaks[output.place(n)]),
         events: outcome.events,
         history: Some(recorder.history),
         contact_loss_s,
@@ -185,6 +175,59 @@ impl Step {
         x.extend_from_slice(&self.eta);
         x.extend_from_slice(&self.eta_dot);
         x
+    }
+}
+
+/// The motion at a sample.
+struct AtSample<'a> {
+    program: &'a Program<'a>,
+    step: &'a Step,
+    sample: usize,
+}
+
+impl Quantities for AtSample<'_> {
+    type Value = f64;
+
+    fn zero(&self) -> f64 {
+        0.0
+    }
+
+    fn velocity(&self) -> f64 {
+        self.step.w
+    }
+
+    fn block(&self) -> f64 {
+        self.step.u
+    }
+
+    fn slider(&self) -> f64 {
+        let Step { s, w, .. } = *self.step;
+        self.friction() - self.program.restoring_n(s, w, self.sample)
+    }
+
+    fn friction(&self) -> f64 {
+        self.program.friction_n(self.step, self.sample)
+    }
+
+    fn base_shear(&self) -> f64 {
+        dot(&self.program.system.participation, &self.step.f)
+    }
+
+    fn displacement(&self, storey: usize) -> f64 {
+        dot(self.program.system.floor(storey), &self.step.eta)
+    }
+
+    fn drift(&self, storey: usize) -> f64 {
+        dot(self.program.system.drift(storey), &self.step.eta)
+    }
+
+    fn acceleration(&self, storey: usize) -> f64 {
+        -dot(self.program.system.floor(storey), &self.step.f)
+    }
+
+    /// Contents are not taken.
+    fn contents(&self, _: usize) -> [f64; 2] {
+        [0.0; 2]
     }
 }
 

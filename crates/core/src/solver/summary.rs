@@ -1,9 +1,9 @@
 //! Peaks and counts in the words of the result, and what the reader must be told.
 
 use super::course::Sliding;
-use super::outputs::output;
 use crate::model::Model;
 use crate::notice::{Notice, NoticeKind};
+use crate::response::output::Output;
 use crate::response::{Demands, Event, EventKind, StopDemands, StoreyDemands, SurfaceDemands};
 use crate::slider::Direction;
 
@@ -19,25 +19,48 @@ pub(super) struct Outcome {
     pub(super) first_impact_s: Option<f64>,
 }
 
-/// What the response asks of the structure, from the peaks of the [`outputs`](super::outputs::rows).
-pub(super) fn demands(model: &Model, outcome: &Outcome, peak: impl Fn(usize) -> f64) -> Demands {
-    let n = model.storeys();
+/// What the peaks of outputs say, `width_m` where the overturning moment is one; the rest is left out.
+pub(super) fn of_peaks(
+    model: &Model,
+    width_m: Option<f64>,
+    peak: impl Fn(Output) -> f64,
+) -> Demands {
     let weight_n = model.weight_n();
-    let n_points = model.points();
-    let points: Vec<StoreyDemands> = (0..n_points)
-        .map(|i| StoreyDemands {
-            peak_acceleration_m_per_s2: peak(output::acceleration(n_points, i)),
-            peak_displacement_m: peak(output::displacement(i)),
-            peak_drift_m: peak(output::drift(n_points, i)),
-            peak_drift_ratio: model
-                .rise_m(i)
-                .map(|rise_m| peak(output::drift(n_points, i)) / rise_m),
-        })
-        .collect();
+    let of_point = |i: usize| {
+        let peak_drift_m = peak(Output::Drift(i));
+        StoreyDemands {
+            peak_acceleration_m_per_s2: peak(Output::Acceleration(i)),
+            peak_displacement_m: peak(Output::Displacement(i)),
+            peak_drift_m,
+            peak_drift_ratio: model.rise_m(i).map(|rise_m| peak_drift_m / rise_m),
+        }
+    };
+    let points = (0..model.points()).map(of_point).collect();
     let (storeys, points) = match model.structure() {
         Some(_) => (Vec::new(), points),
         None => (points, Vec::new()),
     };
+    let shear_n = if model.storeys() == 0 { 0.0 } else { peak(Output::BaseShear) };
+    let [friction_n, slider_n] = [Output::Friction, Output::Slider].map(&peak);
+    Demands {
+        storeys,
+        points,
+        peak_sliding_velocity_m_per_s: peak(Output::Velocity),
+        peak_block_acceleration_m_per_s2: peak(Output::Block),
+        peak_base_shear_n: shear_n,
+        peak_friction_force_n: friction_n,
+        peak_slider_force_n: slider_n,
+        base_shear_coefficient: shear_n / weight_n,
+        friction_coefficient_used: friction_n / weight_n,
+        slider_force_coefficient: slider_n / weight_n,
+        overturning_ratio: width_m
+            .map(|width_m| peak(Output::Overturning) / (0.5 * width_m * weight_n)),
+        ..Demands::default()
+    }
+}
+
+/// What the response asks of the structure.
+pub(super) fn demands(model: &Model, outcome: &Outcome, peak: impl Fn(Output) -> f64) -> Demands {
     let [mut slip_count, mut reversal_count, mut stick_count] = [0; 3];
     for event in outcome.events.iter().filter(|e| e.interface == 0) {
         slip_count += u64::from(event.kind == EventKind::Slip);
@@ -46,7 +69,6 @@ pub(super) fn demands(model: &Model, outcome: &Outcome, peak: impl Fn(usize) -> 
     }
     let sliding = &outcome.sliding;
     let peak_sliding_displacement_m = sliding.max_m.max(-sliding.min_m);
-    let peak_base_shear_n = if n == 0 { 0.0 } else { peak(output::BASE_SHEAR) };
     Demands {
         peak_sliding_displacement_m,
         peak_sliding_displacement_time_s: sliding.peak_time_s,
@@ -55,30 +77,15 @@ pub(super) fn demands(model: &Model, outcome: &Outcome, peak: impl Fn(usize) -> 
         residual_sliding_displacement_m: outcome.residual_m,
         sliding_at_end: outcome.sliding_at_end,
         sliding_path_m: sliding.path_m,
-        peak_sliding_velocity_m_per_s: peak(output::VELOCITY),
         sliding_time_s: sliding.time_s,
         slip_count,
         reversal_count,
         stick_count,
-        peak_block_acceleration_m_per_s2: peak(output::BLOCK),
-        storeys,
-        points,
-        peak_base_shear_n,
-        peak_friction_force_n: peak(output::FRICTION),
-        peak_slider_force_n: peak(output::SLIDER),
-        base_shear_coefficient: peak_base_shear_n / weight_n,
-        friction_coefficient_used: peak(output::FRICTION) / weight_n,
-        slider_force_coefficient: peak(output::SLIDER) / weight_n,
         closest_stop: Some(sliding.closest_stop).filter(|margin| margin.is_finite()),
         gap_ratio: model.slider().gap_m().map(|gap_m| peak_sliding_displacement_m / gap_m),
-        overturning_ratio: model
-            .block()
-            .width_m
-            .filter(|_| outcome.overturns)
-            .map(|width_m| peak(output::OVERTURNING) / (0.5 * width_m * weight_n)),
         stop: outcome.stop,
         surfaces: outcome.surfaces.clone(),
-        contents: Vec::new(),
+        ..of_peaks(model, model.block().width_m.filter(|_| outcome.overturns), peak)
     }
 }
 

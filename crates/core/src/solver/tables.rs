@@ -7,12 +7,13 @@ use fearless_simd::prelude::*;
 
 use super::dense;
 use super::instructions::{InstructionSet, Job};
-use super::outputs::{self, Outputs, Overturning, output};
+use super::outputs::{self, Arms, Outputs};
 use crate::linear::polynomial::DEGREE;
 use crate::linear::{
     BATCH, MAX_RATE_STEP, Maps, Row, Solution, StoreyDamping, System, Units, orders,
 };
 use crate::model::{Damping, Model};
+use crate::response::output;
 use crate::slider::{Law, Restraint, Restraints};
 
 /// Most storeys for which samples go in batches: beyond, the maps are larger than the work.
@@ -50,7 +51,7 @@ pub(super) struct LazyPhase {
     dt_s: Option<f64>,
     batch_s: Option<f64>,
     orders: usize,
-    overturning: Option<Arc<Overturning>>,
+    arms: Option<Arc<Arms>>,
     slope: f64,
     phase: OnceLock<PhaseTables>,
 }
@@ -200,7 +201,7 @@ impl Tables {
             free.restrained(stiffness_n_per_m, damper_n_s_per_m)
         };
         let free = Arc::new(free);
-        let overturning = outputs::overturning(model, &free).map(Arc::new);
+        let arms = Arms::new(model, &[]).map(Arc::new);
         let slope = model.slope_m_per_s2();
         let mut stick = LazyPhase {
             number: 0,
@@ -209,7 +210,7 @@ impl Tables {
             dt_s,
             batch_s: dt_s.filter(|_| is_tabled),
             orders: DEGREE,
-            overturning,
+            arms,
             slope,
             phase: OnceLock::new(),
         };
@@ -224,7 +225,7 @@ impl Tables {
                 restraints: Some(restraints),
                 // Pressed against a stop, samples go one by one.
                 batch_s: dt_s.filter(|_| !restraints.is_pressed),
-                overturning: stick.overturning.clone(),
+                arms: stick.arms.clone(),
                 phase: OnceLock::new(),
                 ..stick
             });
@@ -242,17 +243,20 @@ impl Tables {
         let fits = free.storeys <= 1 && !free.is_by_modes();
         let plain_s = dt_s.filter(|_| fits && is_tabled && law.two_branches(normal_n).is_some());
         let dense = plain_s.and_then(|dt_s| {
-            let moment = stick.overturning.as_deref();
+            let arms = stick.arms.as_deref();
             let rows = [None, Some(&Restraint::default())]
-                .map(|slip| outputs::rows(&free, slip, moment, slope));
+                .map(|slip| outputs::rows(&free, slip, arms, slope));
             let shape = dense::Shape {
                 floor: if free.storeys == 1 { free.floor(0)[0] } else { 0.0 },
-                arms: moment.map_or([0.0; 2], Overturning::arms),
+                arms: arms.map_or([0.0; 2], |arms| {
+                    let (of_f, of_block) = arms.by_modes(&free);
+                    [of_f.first().copied().unwrap_or(0.0), of_block]
+                }),
                 slope,
             };
             dense::Tables::new(simd, &free, shape, rows.each_ref().map(Vec::as_slice), dt_s)
         });
-        let overturns = stick.overturning.is_some();
+        let overturns = stick.arms.is_some();
         let tables = Self { orders: stick.orders, stick, slip, overturns, slope, start, dense };
         if is_tabled && tables.dense.is_none() {
             tables.stick.get().batch();
@@ -310,9 +314,9 @@ impl PhaseTables {
     #[inline(always)]
     fn new<S: Simd>(simd: S, of: &LazyPhase) -> Self {
         let LazyPhase { ref system, restraints, dt_s, batch_s, orders, slope, .. } = *of;
-        let moment = of.overturning.as_deref();
+        let arms = of.arms.as_deref();
         let of_friction = restraints.map(|restraints| restraints.of_friction);
-        let rows = outputs::rows(system, of_friction.as_ref(), moment, slope);
+        let rows = outputs::rows(system, of_friction.as_ref(), arms, slope);
         let slip = of_friction.is_some();
         let system = system.clone();
         let rate = if slip { system.slip_rate_rad_per_s } else { system.stick_rate_rad_per_s };

@@ -99,7 +99,7 @@ impl Cases {
 
 /// A run that was made.
 #[derive(Clone, Debug)]
-pub struct Ran<R, M = ()> {
+pub struct CaseRun<R, M = ()> {
     /// What it is of.
     pub case: Case,
     /// What is known of its motion, where there is one.
@@ -110,7 +110,7 @@ pub struct Ran<R, M = ()> {
     pub noticed: Vec<NoticeKind>,
 }
 
-impl<R, M> Ran<R, M> {
+impl<R, M> CaseRun<R, M> {
     /// A run of which nothing else is known.
     pub(crate) fn of(case: Case, kept: Result<R, RunError>) -> Self {
         Self { case, known: None, kept, noticed: Vec::new() }
@@ -220,7 +220,7 @@ impl<'a, M: Clone + Send + Sync> Runs<'a, M> {
         cases: &[Case],
         design: impl Fn(&Case) -> &'d Result<Parts, RunError> + Sync,
         keep: impl Fn(&Case, &Response, &GroundMotion) -> R + Sync,
-    ) -> Result<Vec<Ran<R, M>>, Stopped> {
+    ) -> Result<Vec<CaseRun<R, M>>, Stopped> {
         let alike = |a: &Case, b: &Case| (a.design, a.bound) == (b.design, b.bound);
         let of_design = cases.chunk_by(alike);
         let pieces: Vec<&[Case]> = of_design.flat_map(|cases| cases.chunks(PIECE)).collect();
@@ -235,7 +235,7 @@ impl<'a, M: Clone + Send + Sync> Runs<'a, M> {
         pieces: &[impl AsRef<[Case]> + Sync],
         design: impl Fn(&Case) -> (&'d Result<Parts, RunError>, Option<f64>) + Sync,
         keep: impl Fn(&Case, &Response, &GroundMotion) -> R + Sync,
-    ) -> Result<Vec<Ran<R, M>>, Stopped> {
+    ) -> Result<Vec<CaseRun<R, M>>, Stopped> {
         let ran = self.engine.map(pieces.len(), |i| {
             let mut thread = OneThread::new(self);
             let cases = pieces[i].as_ref().iter();
@@ -265,13 +265,14 @@ impl<'a, M: Clone + Send + Sync> OneThread<'a, M> {
         case: Case,
         (parts, turned_rad): (&'a Result<Parts, RunError>, Option<f64>),
         keep: impl Fn(&Case, &Response, &GroundMotion) -> R,
-    ) -> Ran<R, M> {
+    ) -> CaseRun<R, M> {
         let Self { of, models, own, workspace } = self;
         let shared = of.shared(&case);
         let known = |shaking: &Result<Shaking<M>, RunError>| {
             shaking.as_ref().ok().map(|shaking| shaking.known.clone())
         };
-        let failed = |known, error: &RunError| Ran { known, ..Ran::of(case, Err(error.clone())) };
+        let failed =
+            |known, error: &RunError| CaseRun { known, ..CaseRun::of(case, Err(error.clone())) };
         let parts = match parts {
             Ok(parts) => parts,
             Err(error) => return failed(shared.and_then(known), error),
@@ -300,7 +301,7 @@ impl<'a, M: Clone + Send + Sync> OneThread<'a, M> {
         });
         let known = Some(ready.known.clone());
         match models[at].1.on(&ready.motion, workspace) {
-            Ok(response) => Ran {
+            Ok(response) => CaseRun {
                 case,
                 known,
                 noticed: noticed_of(&parts.model, &response),
@@ -366,16 +367,16 @@ impl InWords<'_> {
     /// The runs without an answer.
     pub(crate) fn failures<'r, R: 'r, M: 'r>(
         &self,
-        ran: impl IntoIterator<Item = &'r Ran<R, M>>,
+        ran: impl IntoIterator<Item = &'r CaseRun<R, M>>,
     ) -> Vec<FailedRun> {
-        let of = |ran: &Ran<R, M>| Some(self.failed(&ran.case, ran.kept.as_ref().err()?));
+        let of = |ran: &CaseRun<R, M>| Some(self.failed(&ran.case, ran.kept.as_ref().err()?));
         ran.into_iter().filter_map(of).collect()
     }
 
     /// What was noticed of runs, each kind once with the number of its runs and the first of them.
-    pub(crate) fn noticed<R, M>(&self, ran: &[Ran<R, M>]) -> Vec<Notice> {
+    pub(crate) fn noticed<R, M>(&self, ran: &[CaseRun<R, M>]) -> Vec<Notice> {
         let mut kinds = Vec::new();
-        for Ran { case, noticed, .. } in ran {
+        for CaseRun { case, noticed, .. } in ran {
             noticed.iter().for_each(|kind| tally(&mut kinds, kind, case));
         }
         let told = |(kind, count, case): (NoticeKind, u64, &Case)| {

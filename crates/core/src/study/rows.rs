@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::cases::{Case, Cases, Ran, Runs};
+use super::cases::{Case, CaseRun, Cases, Runs};
 use super::engine::Engine;
 use super::notices::{coarse_sampling, longest_step_s};
 use super::{Sample, Study, chunks};
@@ -117,14 +117,14 @@ impl Study {
         let ran = all.pieces(&pieces, design, |_, response, _| {
             (self.demands(response), of_demands(&response.demands))
         })?;
-        let row = |ran: Ran<Answer, Shaken>| self.row(sample(&ran.case), ran);
+        let row = |ran: CaseRun<Answer, Shaken>| self.row(sample(&ran.case), ran);
         let mut rows: Vec<Row> = ran.into_iter().map(row).collect();
         sort(&mut rows, |a, b| a.run.cmp(&b.run));
         Ok(rows)
     }
 
-    fn row(&self, sample: &Sample, ran: Ran<Answer, Shaken>) -> Row {
-        let Ran { case, known, kept, noticed } = ran;
+    fn row(&self, sample: &Sample, ran: CaseRun<Answer, Shaken>) -> Row {
+        let CaseRun { case, known, kept, noticed } = ran;
         let nothing = || vec![f64::NAN; self.measures.len()].into();
         let measures = known.as_ref().map_or_else(nothing, |known| known.measures.clone());
         let (demands, warnings, error) = match kept {

@@ -6,13 +6,13 @@ use super::super::events::SLOWEST_IMPACT_M_PER_S;
 use super::super::ground::{Load, nearest};
 use super::super::judge::{Directions, Judge};
 use super::super::law::{BOUNDLESS, StickDemand, UNBOUNDED, either};
-use super::super::outputs::{FRICTION, STOREYS};
 use super::super::structure::larger;
 use super::super::{ClosestCall, DecisionKind};
 use super::Line;
 use super::group::{Feed, Group};
 use super::work::Work;
 use crate::response::Mode;
+use crate::response::output::{FRICTION, OF_BLOCK};
 use crate::slider::Direction;
 
 /// Changes of modes at knots, and what is asked there in modes and under loads that may have led to them.
@@ -134,7 +134,7 @@ impl<'a> Judge<'a, Line<'a>> {
     /// Finds the forces of all changes, eight at a time.
     fn ask(&self, asked: &mut ChangeDemands) {
         let bench = self.bench();
-        let mut work = Work::new(&bench, STOREYS);
+        let mut work = Work::new(&bench, OF_BLOCK);
         let mut group = Group::new(&bench);
         let stride = 1 + asked.interfaces;
         let mut count = 0;

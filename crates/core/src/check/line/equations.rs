@@ -13,11 +13,12 @@ use fearless_simd::{dispatch, f64x8};
 
 use super::super::collocation::NODES;
 use super::super::lane::{Eight, all, both, inlined, larger, smaller};
-use super::super::outputs::{FRICTION, Outputs};
+use super::super::outputs::Outputs;
 use super::super::structure::StoreyDamping;
 use super::group::Group;
 use super::knots::LaneJudge;
 use super::work::Work;
+use crate::response::output::FRICTION;
 
 /// Loads and springs at a part of a step.
 #[derive(Clone, Copy)]

@@ -6,7 +6,6 @@ use super::super::collocation::{MAX_TURN, terms};
 use super::super::judge::{Judge, Run, STILL};
 use super::super::lane::LANES;
 use super::super::law::{StickDemand, UNBOUNDED};
-use super::super::outputs::{FRICTION, SLIDER, VELOCITY};
 use super::Line;
 use super::group::{Course, Group, Key};
 use super::knots::{LaneJudge, Worst};
@@ -15,6 +14,7 @@ use super::sweep::{Even, EvenRun, Floors, Kind, MOST_STEPS};
 use super::watch::{Watch, Watched};
 use super::work::{Pass, Work};
 use crate::error::Stopped;
+use crate::response::output::{FRICTION, Output, SLIDER};
 use crate::response::{Contact, Mode};
 use crate::slider::Direction;
 
@@ -283,7 +283,7 @@ impl<'a> Judge<'a, Line<'a>> {
     }
 
     fn place_of_speed(&self, i: usize) -> usize {
-        i.checked_sub(1).map_or(VELOCITY, |e| self.outputs.of_contents() + e)
+        self.outputs.place(i.checked_sub(1).map_or(Output::Velocity, Output::ContentsVelocity))
     }
 
     /// Whether an interface could stick where it slides, without slowing down to it smoothly.

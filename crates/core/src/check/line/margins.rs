@@ -5,13 +5,13 @@ use fearless_simd::{dispatch, f64x8};
 
 use super::super::collocation::{NODES, POINTS};
 use super::super::lane::{Eight, Places, all, both, smaller};
-use super::super::outputs::FRICTION;
 use super::equations::state_of;
 use super::group::Group;
 use super::knots::LaneJudge;
 use super::watch::Points;
 use super::work::{Pass, Work};
 use crate::error::Stopped;
+use crate::response::output::FRICTION;
 
 impl LaneJudge<'_> {
     /// The margin of an interface that sticks, which is asked for from a least to a largest part of `N`.

@@ -4,13 +4,13 @@ use super::super::collocation::{POINTS, Rule};
 use super::super::ground::between;
 use super::super::judge::{Directions, Judge, Run};
 use super::super::near::dip;
-use super::super::outputs::VELOCITY;
 use super::super::structure::{excess, larger};
 use super::Line;
 use super::group::{Feed, Group};
 use super::knots::rates_of;
 use super::watch::{Points, Watch};
 use super::work::Work;
+use crate::response::output::VELOCITY;
 use crate::response::{Contact, Mode};
 use crate::slider::Direction;
 

@@ -4,10 +4,10 @@ use fearless_simd::prelude::*;
 
 use super::super::collocation::NODES;
 use super::super::lane::{Places, all, both, keep, larger};
-use super::super::outputs::{BLOCK, FRICTION, STOP};
 use super::group::Group;
 use super::knots::{LaneJudge, lists_of};
 use super::work::Pass;
+use crate::response::output::{BLOCK, FRICTION};
 
 impl LaneJudge<'_> {
     /// Compares the ends of the paths with the knots stored there.
@@ -120,7 +120,7 @@ impl LaneJudge<'_> {
             );
             let rounding = all(simd, s.total_kg) * drift + most * rounding;
             keep(simd, &mut pass.worst.force[0], off - rounding);
-            let stop = pass.work.ends[end][STOP].load(simd);
+            let stop = pass.work.ends[end][pass.outputs.of_stop()].load(simd);
             keep(simd, &mut pass.worst.force[1], larger(own_force.abs(), stop.abs()));
         }
     }

@@ -18,12 +18,12 @@ use fearless_simd::prelude::*;
 use super::super::collocation::NODES;
 use super::super::ground::Ground;
 use super::super::lane::{Eight, LANES, Places, all, both, inlined, larger, smaller};
-use super::super::outputs::{FRICTION, VELOCITY};
 use super::group::{Course, Group, Key};
 use super::knots::{BATCH, LaneJudge};
 use super::maps::{Map, Maps, Spread};
 use super::work::{Pass, Spent, Work};
 use crate::error::Stopped;
+use crate::response::output::Output;
 
 /// Most steps of an interval whose outputs are bounded from its ends.
 pub(super) const MOST_STEPS: usize = 2;
@@ -39,14 +39,14 @@ pub(super) struct Kind {
 
 /// The even intervals of one key.
 pub(super) struct Even {
-    way: Way,
-    /// Those under way: of one run, and what is left of several.
+    common: Common,
+    /// Those being judged: of one run, and what is left of several.
     run: Lanes,
     rest: Lanes,
 }
 
-/// What is known of them.
-struct Way {
+/// What is common to them.
+struct Common {
     length_s: f64,
     /// To Legendre's terms of all velocities, one after another, then the velocities at the end.
     map: Map,
@@ -98,34 +98,33 @@ impl Even {
         map: Map,
     ) -> Self {
         let lanes = || Lanes { group: Group::new(bench), samples: [0; LANES] };
-        let (e, first) = (bench.structure.contents.len(), bench.structure.of_contents);
-        let deciding = (0..=e).map(|i| {
+        let deciding = (0..=bench.structure.contents.len()).map(|i| {
             let sticks = key.stuck >> i & 1 == 1;
             let output = match (i.checked_sub(1), sticks) {
-                (None, true) => FRICTION,
-                (None, false) => VELOCITY,
-                (Some(i), false) => first + i,
-                (Some(i), true) => first + e + i,
+                (None, true) => Output::Friction,
+                (None, false) => Output::Velocity,
+                (Some(e), false) => Output::ContentsVelocity(e),
+                (Some(e), true) => Output::ContentsAcceleration(e),
             };
-            Deciding { sticks, output, off: Vec::new() }
+            Deciding { sticks, output: output.place(bench.structure.points), off: Vec::new() }
         });
-        let way = Way { length_s, map, terms, deciding: deciding.collect(), settled: 0 };
-        Self { way, run: lanes(), rest: lanes() }
+        let common = Common { length_s, map, terms, deciding: deciding.collect(), settled: 0 };
+        Self { common, run: lanes(), rest: lanes() }
     }
 
     /// What decides about the slider, if it sticks.
     pub(super) fn holds(&self) -> bool {
-        self.way.deciding[0].sticks
+        self.common.deciding[0].sticks
     }
 
     /// Takes the outputs that pass no peak where no decision is near.
     pub(super) fn settle<'o>(&mut self, outputs: impl Iterator<Item = &'o usize>) {
-        self.way.settled = outputs.fold(0, |bits, g| bits | 1 << g);
+        self.common.settled = outputs.fold(0, |bits, g| bits | 1 << g);
     }
 
     /// Takes how far outputs may leave their chords, batch by batch.
     pub(super) fn bound(&mut self, off: &[Vec<f64>]) {
-        for deciding in &mut self.way.deciding {
+        for deciding in &mut self.common.deciding {
             deciding.off.clone_from(&off[deciding.output]);
         }
     }
@@ -172,7 +171,7 @@ impl LaneJudge<'_> {
         (pass, named): (&mut Pass<'_, '_>, &mut Vec<usize>),
     ) -> Result<(), Stopped> {
         for run in runs {
-            let Kind { even: Some(Even { way, run: whole, rest }), spread, .. } =
+            let Kind { even: Some(Even { common, run: whole, rest }), spread, .. } =
                 &mut kinds[run.kind]
             else {
                 continue;
@@ -181,7 +180,7 @@ impl LaneJudge<'_> {
                 for i in 0..run.count {
                     rest.samples[rest.group.count] = run.sample + i;
                     if rest.group.push(self, &Course { knot: run.knot + i, ..run.course }) {
-                        self.eight(simd, (way, spread), rest, floors, (pass, named))?;
+                        self.eight(simd, (common, spread), rest, floors, (pass, named))?;
                         rest.group.count = 0;
                     }
                 }
@@ -196,17 +195,17 @@ impl LaneJudge<'_> {
                 let i = i.min(run.count - LANES);
                 whole.group.knots = core::array::from_fn(|lane| run.knot + i + lane);
                 whole.samples = core::array::from_fn(|lane| run.sample + i + lane);
-                self.eight(simd, (way, spread), whole, floors, (pass, named))?;
+                self.eight(simd, (common, spread), whole, floors, (pass, named))?;
             }
         }
         for kind in kinds {
-            let Kind { even: Some(Even { way, rest, .. }), spread, .. } = kind else { continue };
+            let Kind { even: Some(Even { common, rest, .. }), spread, .. } = kind else { continue };
             let count = rest.group.count;
             if count > 0 {
                 rest.group.fill();
                 let last = rest.samples[count - 1];
                 rest.samples[count..].fill(last);
-                self.eight(simd, (way, spread), rest, floors, (pass, named))?;
+                self.eight(simd, (common, spread), rest, floors, (pass, named))?;
             }
         }
         Ok(())
@@ -217,7 +216,7 @@ impl LaneJudge<'_> {
     fn eight<S: Simd>(
         &self,
         simd: S,
-        (way, spread): (&Way, &Spread),
+        (common, spread): (&Common, &Spread),
         lanes: &mut Lanes,
         floors: &Floors,
         (pass, named): (&mut Pass<'_, '_>, &mut Vec<usize>),
@@ -225,8 +224,8 @@ impl LaneJudge<'_> {
         pass.pulse.beat(8 * self.structure.degrees() as u32)?;
         // One storey gets loops of its own.
         let bits = match self.structure.masses_kg.len() {
-            1 => self.eight_of(simd, 1, (way, spread), lanes, floors, pass),
-            n => self.eight_of(simd, n, (way, spread), lanes, floors, pass),
+            1 => self.eight_of(simd, 1, (common, spread), lanes, floors, pass),
+            n => self.eight_of(simd, n, (common, spread), lanes, floors, pass),
         };
         let lanes = (0..lanes.group.count).zip(lanes.group.knots);
         if bits != 0 {
@@ -240,38 +239,38 @@ impl LaneJudge<'_> {
         &self,
         simd: S,
         n: usize,
-        (way, spread): (&Way, &Spread),
+        (common, spread): (&Common, &Spread),
         lanes: &mut Lanes,
         floors: &Floors,
         pass: &mut Pass<'_, '_>,
     ) -> u64 {
-        lanes.read(simd, way.length_s, pass.ground);
+        lanes.read(simd, common.length_s, pass.ground);
         let group = &lanes.group;
         let d = self.structure.degrees();
         let places = Places::new(group.knots);
         self.read(simd, n, &places, &mut pass.work.input);
         self.load(simd, n, group, true, pass.work);
         let Work { input, active, sums, path, fastest, .. } = &mut *pass.work;
-        way.map.apply(simd, (input, active), sums);
-        let h = all(simd, way.length_s);
+        common.map.apply(simd, (input, active), sums);
+        let h = all(simd, common.length_s);
         for k in 0..d {
             let (x, v) = (input[k].load(simd), input[d + k].load(simd));
-            let last = sums[way.terms * d + k].load(simd);
+            let last = sums[common.terms * d + k].load(simd);
             path[NODES * d + k].store(x + h * sums[k].load(simd));
             path[(NODES + 1) * d + k].store(last);
             fastest[k].store(larger(v.abs(), last.abs()));
         }
-        pass.work.spent = self.exchange(simd, way, group, pass.work);
+        pass.work.spent = self.exchange(simd, common, group, pass.work);
         for end in 0..2 {
             self.sides(simd, (group, end), &places, pass);
         }
         self.arrive(simd, n, group, &places, pass);
         pass.work.spent.enter(&group.knots, pass.books);
         let mut named = 0;
-        for i in 0..way.deciding.len() {
-            named |= self.near(simd, i, (way, spread), (group, &places), floors, pass.work);
+        for i in 0..common.deciding.len() {
+            named |= self.near(simd, i, (common, spread), (group, &places), floors, pass.work);
         }
-        let loud = spread.loud(&group.knots) & !way.settled;
+        let loud = spread.loud(&group.knots) & !common.settled;
         if loud != 0 {
             named |= self.passing(simd, group, (spread, loud), pass);
         }
@@ -280,10 +279,10 @@ impl LaneJudge<'_> {
 
     /// Energies from Legendre's terms.
     #[inline(always)]
-    fn exchange<S: Simd>(&self, simd: S, way: &Way, group: &Group, work: &Work) -> Spent {
+    fn exchange<S: Simd>(&self, simd: S, common: &Common, group: &Group, work: &Work) -> Spent {
         let s = self.structure;
         let (d, n) = (s.degrees(), s.masses_kg.len());
-        let h = all(simd, way.length_s);
+        let h = all(simd, common.length_s);
         let [half, sixth] = [all(simd, 0.5), all(simd, 1.0 / 6.0)];
         // Δx and x̄.
         let moved = inlined!(|k: usize| {
@@ -306,10 +305,10 @@ impl LaneJudge<'_> {
             friction += all(simd, contents.mass_kg) * pulled;
         }
         let (mut damping, drag) = (all(simd, 0.0), group.drag.load(simd));
-        for term in 0..way.terms {
+        for term in 0..common.terms {
             let terms = &work.sums[term * d..];
             let w = terms[0].load(simd);
-            friction += all(simd, way.length_s / (2 * term + 1) as f64) * (drag * w * w);
+            friction += all(simd, common.length_s / (2 * term + 1) as f64) * (drag * w * w);
             let lost = self.dissipation(simd, w, inlined!(|j: usize| terms[1 + j].load(simd)));
             damping += all(simd, 1.0 / (2 * term + 1) as f64) * lost;
         }
@@ -364,12 +363,12 @@ impl LaneJudge<'_> {
         &self,
         simd: S,
         i: usize,
-        (way, spread): (&Way, &Spread),
+        (common, spread): (&Common, &Spread),
         (group, places): (&Group, &Places),
         floors: &Floors,
         work: &mut Work,
     ) -> u64 {
-        let deciding = &way.deciding[i];
+        let deciding = &common.deciding[i];
         let [from, to] = both!(|end| self.decides(simd, i, deciding.sticks, (group, places, end)));
         let pair = inlined!(|pair: &[Eight; 2]| [pair[0].load(simd), pair[1].load(simd)]);
         let [first, second] = pair(&group.normal);

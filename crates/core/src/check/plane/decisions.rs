@@ -4,7 +4,7 @@ use super::super::collocation::POINTS;
 use super::super::ground::nearest;
 use super::super::structure::larger;
 use super::frame::{Loads, Pair, between, dot, norm, times, unit};
-use super::judge::{Minima, PlaneJudge, REST, Turn};
+use super::judge::{EventDirection, Minima, PlaneJudge, REST};
 use super::step::{FINE, State, Step, Stretch, sine};
 use crate::response::Mode;
 
@@ -47,10 +47,14 @@ impl<'a> PlaneJudge<'a> {
     pub(super) fn turn(&mut self, k: usize) {
         let (all, off) = self.loads_of(k);
         let state = self.state(k);
-        let mut turn =
-            Turn { direction: Some([0.0; 2]), unsure: 0.0, force_n: 1.0, y_m: state.x[1] };
+        let mut turn = EventDirection {
+            direction: Some([0.0; 2]),
+            unsure: 0.0,
+            force_n: 1.0,
+            y_m: state.x[1],
+        };
         if self.mode(k) == Mode::Stick {
-            self.axes.turns.push(turn);
+            self.axes.event_directions.push(turn);
             let best = nearest(off).iter().position(|is| *is);
             return self.comes_to_rest(k, &all[best.unwrap_or(0)]);
         }
@@ -59,7 +63,7 @@ impl<'a> PlaneJudge<'a> {
         let clear = norm(push) > 1e-6 * (self.largest.1 + slowing);
         turn.direction = self.frame().body.departure(push, slowing).filter(|_| clear);
         turn.force_n = self.frame().block_kg * norm(push);
-        self.axes.turns.push(turn);
+        self.axes.event_directions.push(turn);
     }
 
     /// Judges the way to a stop at a knot: whether the block has slowed down so far, and what friction has
@@ -280,7 +284,7 @@ impl<'a> PlaneJudge<'a> {
         let frame = self.frame();
         self.axes.heading = Some(step.heading(frame, POINTS - 1, self.push_at(step, POINTS - 1)));
         // A push too small to tell the first direction grows into one that does.
-        if let Some(turn) = self.axes.turns.last_mut()
+        if let Some(turn) = self.axes.event_directions.last_mut()
             && turn.direction.is_none()
         {
             let [first, second] = [1, 2].map(|point| step.heading(frame, point, [0.0; 2]));

@@ -1,9 +1,9 @@
 //! The printed demands of a motion in a plane, compared with those of the check's own.
 
 use super::super::demands::{Comparison, Recomputed, Rounding, of_directions, of_motion};
-use super::super::outputs::VELOCITY;
 use super::frame::norm;
 use super::judge::PlaneJudge;
+use crate::response::output::VELOCITY;
 use crate::response::{Demands, Mode};
 
 impl<'a> PlaneJudge<'a> {
@@ -84,8 +84,8 @@ impl<'a> PlaneJudge<'a> {
     fn of_turns(&self, c: &mut Comparison, peak_m: f64, rounding: &Rounding) {
         let printed = &self.axes.printed.events;
         c.same(printed.len() == self.response.events.len());
-        c.same(printed.len() == self.axes.turns.len());
-        for (printed, own) in printed.iter().zip(&self.axes.turns) {
+        c.same(printed.len() == self.axes.event_directions.len());
+        for (printed, own) in printed.iter().zip(&self.axes.event_directions) {
             c.number(printed.sliding_displacement_y_m, own.y_m, rounding.displacement_m, peak_m);
             let u = own.direction.unwrap_or([f64::NAN; 2]);
             let off = norm([0, 1].map(|i| printed.direction[i] - u[i]));

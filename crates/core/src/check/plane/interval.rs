@@ -24,8 +24,8 @@ const DEEPEST: u32 = 12;
 /// Most steps of an interval.
 const MOST_STEPS: usize = 100_000;
 
-/// The way through an interval so far.
-struct Way {
+/// The path through an interval so far.
+struct IntervalPath {
     knot: usize,
     state: State,
     /// Largest velocities and their rates.
@@ -51,7 +51,7 @@ impl<'a> PlaneJudge<'a> {
     pub(super) fn interval(&mut self, k: usize) -> Result<(), Stopped> {
         let [from_s, end_s] = [self.h.time_s[k], self.h.time_s[k + 1]];
         let d = self.frame().degrees();
-        let mut way = Way {
+        let mut path = IntervalPath {
             knot: k,
             state: self.state(k),
             fastest: vec![0.0; d],
@@ -60,7 +60,7 @@ impl<'a> PlaneJudge<'a> {
         };
         let slips = self.mode(k) != Mode::Stick;
         if !slips {
-            way.state.v[..2].fill(0.0);
+            path.state.v[..2].fill(0.0);
         }
         let (mut at_s, mut drift) = (from_s, 0.0);
         while at_s < end_s {
@@ -79,16 +79,16 @@ impl<'a> PlaneJudge<'a> {
                 let side = self.side(k + 1, &loads[1], Place::End);
                 self.take(&side);
             }
-            drift = f64::max(drift, self.normal_drift(&way.state, &loads[0]));
+            drift = f64::max(drift, self.normal_drift(&path.state, &loads[0]));
             let stretch = Stretch { from_s: at_s, step_s: to_s - at_s, loads };
             if slips {
-                self.slide(&mut way, &stretch)?;
+                self.slide(&mut path, &stretch)?;
             } else {
-                self.rest(&mut way, &stretch)?;
+                self.rest(&mut path, &stretch)?;
             }
             at_s = to_s;
         }
-        self.arrive(&way, drift);
+        self.arrive(&path, drift);
         Ok(())
     }
 
@@ -99,33 +99,33 @@ impl<'a> PlaneJudge<'a> {
         per_n * loads[0].normal_rounding(self.ground.blur())
     }
 
-    /// Compares the end of the way with what is stored there.
-    fn arrive(&mut self, way: &Way, drift_n: f64) {
-        let k = way.knot;
+    /// Compares the end of the path with what is stored there.
+    fn arrive(&mut self, path: &IntervalPath, drift_n: f64) {
+        let k = path.knot;
         let length_s = self.h.time_s[k + 1] - self.h.time_s[k];
         let drift = drift_n / self.frame().least_kg() * length_s;
         let drift_m = 0.5 * length_s * drift;
         let stored = self.state(k + 1);
         let instant_s = self.instant_s;
         let f = &mut self.figures;
-        for i in 0..way.fastest.len() {
-            let off = (stored.x[i] - way.state.x[i]).abs() - instant_s * way.fastest[i] - drift_m;
+        for i in 0..path.fastest.len() {
+            let off = (stored.x[i] - path.state.x[i]).abs() - instant_s * path.fastest[i] - drift_m;
             f.displacement[0] = larger(f.displacement[0], excess(off));
-            let off = (stored.v[i] - way.state.v[i]).abs() - instant_s * way.rates[i] - drift;
+            let off = (stored.v[i] - path.state.v[i]).abs() - instant_s * path.rates[i] - drift;
             f.velocity[0] = larger(f.velocity[0], excess(off));
-            f.displacement[1] = larger(f.displacement[1], way.state.x[i]);
-            f.velocity[1] = larger(f.velocity[1], way.fastest[i]);
+            f.displacement[1] = larger(f.displacement[1], path.state.x[i]);
+            f.velocity[1] = larger(f.velocity[1], path.fastest[i]);
         }
         self.drift = [self.drift[0].max(drift_m), self.drift[1].max(drift)];
-        self.axes.arrived = norm(way.state.speed());
+        self.axes.arrived = norm(path.state.speed());
         if self.ground.has_vertical() {
-            let speed: f64 = way.fastest.iter().sum();
-            let moved = way.fastest[0].max(way.fastest[1]) * length_s;
+            let speed: f64 = path.fastest.iter().sum();
+            let moved = path.fastest[0].max(path.fastest[1]) * length_s;
             self.books.blur[k] += drift_n * moved + self.frame().total_kg * speed * drift;
         }
-        let Some(rested_s) = way.rested_s else { return };
+        let Some(rested_s) = path.rested_s else { return };
         let loads = self.instant(self.h.time_s[k + 1])[0];
-        let push = norm(self.push(&way.state, &loads));
+        let push = norm(self.push(&path.state, &loads));
         let slowing = self.frame().slowing(&loads, 0.0);
         let faster = self.frame().body.most_compliant();
         let late_s = excess(rested_s.abs() - instant_s);
@@ -145,27 +145,27 @@ impl<'a> PlaneJudge<'a> {
     }
 
     /// A stretch of a stick, or of a slip that has come to rest.
-    fn rest(&mut self, way: &mut Way, stretch: &Stretch) -> Result<(), Stopped> {
+    fn rest(&mut self, path: &mut IntervalPath, stretch: &Stretch) -> Result<(), Stopped> {
         let turns = self.frame().rates[0] * stretch.step_s / MAX_TURN;
         let steps = libm::ceil(turns * (1.0 - 1e-9)).max(1.0) as usize;
         for j in 0..steps {
             let length_s = stretch.step_s / steps as f64;
             let part = stretch.part(j as f64 * length_s, length_s);
             self.pulse.beat(64 * self.frame().degrees() as u32)?;
-            let Some(step) = self.axes.stepper.solve(&way.state, part, false) else {
+            let Some(step) = self.axes.stepper.solve(&path.state, part, false) else {
                 self.give_up();
                 return Ok(());
             };
-            if way.rested_s.is_none() {
+            if path.rested_s.is_none() {
                 self.stays(&step);
             }
-            self.follow(way, &step);
+            self.follow(path, &step);
         }
         Ok(())
     }
 
     /// A stretch of a slip.
-    fn slide(&mut self, way: &mut Way, stretch: &Stretch) -> Result<(), Stopped> {
+    fn slide(&mut self, path: &mut IntervalPath, stretch: &Stretch) -> Result<(), Stopped> {
         let length_s = stretch.step_s;
         let (mut t, mut next_s) = (0.0, None);
         for _ in 0..MOST_STEPS {
@@ -174,42 +174,42 @@ impl<'a> PlaneJudge<'a> {
                 return Ok(());
             }
             let loads = stretch.at(t);
-            let most_s = match self.reach(way, &loads, (t, left_s)) {
+            let most_s = match self.reach(path, &loads, (t, left_s)) {
                 Reach::Free => left_s,
                 Reach::Within(reach_s) => reach_s,
                 Reach::Rest(rest_s) => {
-                    let (w, push) = (way.state.speed(), self.push(&way.state, &loads));
+                    let (w, push) = (path.state.speed(), self.push(&path.state, &loads));
                     let under = (stretch.from_s + t, &loads, push);
                     let frame = self.frame();
                     let turned = |before| frame.has_turned_about([w, before], under);
                     if !self.axes.heading.is_some_and(turned) {
                         self.axes.heading = unit(w);
                     }
-                    way.rested_s = Some(left_s - rest_s);
-                    way.state.lose_speed(self.frame());
-                    return self.rest(way, &stretch.part(t, left_s));
+                    path.rested_s = Some(left_s - rest_s);
+                    path.state.lose_speed(self.frame());
+                    return self.rest(path, &stretch.part(t, left_s));
                 }
                 Reach::Turn => {
-                    self.turn_about(way, &loads, stretch.from_s + t);
+                    self.turn_about(path, &loads, stretch.from_s + t);
                     continue;
                 }
             };
-            let first_s = next_s.unwrap_or_else(|| self.outlook(way, &loads));
+            let first_s = next_s.unwrap_or_else(|| self.outlook(path, &loads));
             let longest_s = left_s.min(most_s).min(MAX_TURN / self.frame().rates[1]);
-            let Some(step) = self.step(way, stretch, (t, left_s), longest_s.min(first_s))? else {
-                if norm(way.state.speed()) > 0.0 {
+            let Some(step) = self.step(path, stretch, (t, left_s), longest_s.min(first_s))? else {
+                if norm(path.state.speed()) > 0.0 {
                     self.give_up();
                     return Ok(());
                 }
-                way.rested_s = Some(left_s);
-                return self.rest(way, &stretch.part(t, left_s));
+                path.rested_s = Some(left_s);
+                return self.rest(path, &stretch.part(t, left_s));
             };
             let took_s = step.stretch.step_s;
             let gain =
                 libm::pow(self.bearable() / step.defect().max(f64::MIN_POSITIVE), 1.0 / 15.0);
             next_s = Some(took_s * (0.9 * gain).clamp(0.5, 4.0));
             self.slid(&step);
-            self.follow(way, &step);
+            self.follow(path, &step);
             t = if took_s >= left_s { length_s } else { t + took_s };
         }
         self.give_up();
@@ -224,7 +224,7 @@ impl<'a> PlaneJudge<'a> {
     /// A step of a slip, of this length or as many times halved as it takes; `None` where none is short enough.
     fn step(
         &mut self,
-        way: &Way,
+        path: &IntervalPath,
         stretch: &Stretch,
         (t, left_s): (f64, f64),
         mut step_s: f64,
@@ -235,7 +235,7 @@ impl<'a> PlaneJudge<'a> {
         }
         loop {
             self.pulse.beat(256 + 64 * self.frame().degrees() as u32)?;
-            let step = self.axes.stepper.solve(&way.state, stretch.part(t, step_s), true);
+            let step = self.axes.stepper.solve(&path.state, stretch.part(t, step_s), true);
             let fine = |step: &Step| step.tail <= TAIL && step.defect() <= self.bearable();
             if let Some(step) = step.filter(fine) {
                 return Ok(Some(step));
@@ -248,17 +248,17 @@ impl<'a> PlaneJudge<'a> {
     }
 
     /// How long a first step from here may be: the motion bends within `r/(f + |p|)`.
-    fn outlook(&self, way: &Way, loads: &Loads) -> f64 {
-        let r = norm(way.state.speed());
-        let p = norm(self.push(&way.state, loads));
+    fn outlook(&self, path: &IntervalPath, loads: &Loads) -> f64 {
+        let r = norm(path.state.speed());
+        let p = norm(self.push(&path.state, loads));
         let rate = self.frame().body.most_compliant() * (self.frame().slowing(loads, r) + p);
         if r > 0.0 { 2.0 * r / rate } else { f64::INFINITY }
     }
 
     /// How far a slip goes from here without coming to rest.
-    fn reach(&self, way: &Way, loads: &Loads, (t, left_s): (f64, f64)) -> Reach {
-        let push = self.push(&way.state, loads);
-        let (w, p) = (way.state.speed(), norm(push));
+    fn reach(&self, path: &IntervalPath, loads: &Loads, (t, left_s): (f64, f64)) -> Reach {
+        let push = self.push(&path.state, loads);
+        let (w, p) = (path.state.speed(), norm(push));
         let r = norm(w);
         let f = self.frame().slowing(loads, r);
         if r == 0.0 || f == 0.0 || (dot(w, push) >= 0.0 && p >= f) {
@@ -271,7 +271,7 @@ impl<'a> PlaneJudge<'a> {
         if left_s <= reach_s {
             return Reach::Free;
         }
-        let stops = self.stops(way.knot + 1);
+        let stops = self.stops(path.knot + 1);
         let straight = self.is_straight(w, push, f);
         let shortest_m = if straight { SHORTEST_STRAIGHT_M } else { SHORTEST_M };
         let to_rest = if body.is_one() {
@@ -305,23 +305,23 @@ impl<'a> PlaneJudge<'a> {
     }
 
     /// Passes rest quicker than a time can tell: the block goes on along the push, if at all, and may have
-    /// turned either way.
-    fn turn_about(&mut self, way: &mut Way, loads: &Loads, at_s: f64) {
+    /// turned either path.
+    fn turn_about(&mut self, path: &mut IntervalPath, loads: &Loads, at_s: f64) {
         let tracked = self.tracked();
-        way.state.lose_speed(self.frame());
-        let acting = self.acting(&way.state, loads);
+        path.state.lose_speed(self.frame());
+        let acting = self.acting(&path.state, loads);
         self.axes.peaks.turn(&tracked, &acting, None, false);
-        let holds = self.holds_only(&way.state, loads);
+        let holds = self.holds_only(&path.state, loads);
         self.feed_speed(at_s, 0.0, |_| holds);
     }
 
-    /// Nothing is known of the way: no figure holds.
+    /// Nothing is known of the path: no figure holds.
     fn give_up(&mut self) {
         self.figures.displacement[0] = f64::INFINITY;
     }
 
     /// Takes up a step: its end, energies, path, peaks.
-    fn follow(&mut self, way: &mut Way, step: &Step) {
+    fn follow(&mut self, path: &mut IntervalPath, step: &Step) {
         let (rule, frame) = (self.axes.stepper.rule, self.axes.stepper.frame);
         let Stretch { from_s, step_s, .. } = step.stretch;
         let mut state = State::default();
@@ -331,7 +331,7 @@ impl<'a> PlaneJudge<'a> {
         for point in 0..POINTS {
             step.at_point(point, &mut state);
             quickest = quickest.max(norm(state.speed()));
-            for (fastest, v) in way.fastest.iter_mut().zip(&state.v) {
+            for (fastest, v) in path.fastest.iter_mut().zip(&state.v) {
                 *fastest = fastest.max(v.abs());
             }
             if point == 0 || point + 1 == POINTS {
@@ -354,7 +354,7 @@ impl<'a> PlaneJudge<'a> {
                 size += back.max(0.0);
             }
         }
-        let (k, books) = (way.knot, &mut self.books);
+        let (k, books) = (path.knot, &mut self.books);
         books.work[k] += done;
         books.damping[k] += damping;
         books.friction[k] += friction;
@@ -364,16 +364,16 @@ impl<'a> PlaneJudge<'a> {
         if step.slips {
             self.totals.interfaces[0].path_m += step.path_m(rule);
         }
-        for (most, rate) in way.rates.iter_mut().zip(&step.rates) {
+        for (most, rate) in path.rates.iter_mut().zip(&step.rates) {
             *most = most.max(*rate);
         }
         self.see_peak_time(step, (from_s, step_s));
-        step.at_point(POINTS - 1, &mut way.state);
-        if way.rested_s.is_some() {
+        step.at_point(POINTS - 1, &mut path.state);
+        if path.rested_s.is_some() {
             return;
         }
         if self.is_straight_near_rest(step, quickest) {
-            let acting = self.acting(&way.state, &step.stretch.at(step_s));
+            let acting = self.acting(&path.state, &step.stretch.at(step_s));
             self.axes.peaks.turn(&self.tracked(), &acting, None, false);
         } else {
             self.look(step, 0);

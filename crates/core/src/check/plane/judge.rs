@@ -29,7 +29,7 @@ pub(super) enum Place {
 }
 
 /// What an event is in the plane.
-pub(super) struct Turn {
+pub(super) struct EventDirection {
     /// Direction of the first velocity, as far as it is known; 0 in stick.
     pub(super) direction: Option<Pair>,
     /// What it is not known to, and the force that tells it.
@@ -57,7 +57,7 @@ pub(super) struct Plane<'a> {
     pub(super) ground_y: Ground<'a>,
     pub(super) peaks: Peaks,
     /// What the events are in the plane, in their order.
-    pub(super) turns: Vec<Turn>,
+    pub(super) event_directions: Vec<EventDirection>,
     /// Minima of the speed of the slip under way.
     pub(super) minima: Minima,
     /// Least local minimum of the sliding speed.
@@ -92,7 +92,7 @@ impl<'a> PlaneJudge<'a> {
             stepper: Stepper { frame, rule: Rule::get() },
             ground_y,
             peaks: Peaks::new(&Tracked { frame, outputs: given.outputs }),
-            turns: Vec::new(),
+            event_directions: Vec::new(),
             minima: Minima::default(),
             least_speed: None,
             near_rest: None,

@@ -3,13 +3,12 @@
 //! In a step whose last Legendre coefficients are rounding all outputs are polynomials as good as the motion.
 
 use super::super::collocation::{POINTS, Rule};
-use super::super::outputs::{
-    BLOCK, FRICTION, OVERTURNING, Outputs, SLIDER, STOREYS, raise, raise_size,
-};
+use super::super::outputs::{Outputs, raise, raise_size};
 use super::super::structure::larger;
 use super::body::PointOfModes;
 use super::frame::{Forces, Loads, Pair, PlaneFrame, cross, dot, norm, table, times, unit};
 use super::step::{State, Step};
+use crate::response::output::{BLOCK, FRICTION, OVERTURNING, Output, SLIDER};
 
 /// The outputs that the direction of friction decides.
 const BY_DIRECTION: [usize; 4] = [BLOCK, SLIDER, FRICTION, OVERTURNING];
@@ -205,7 +204,7 @@ impl Peaks {
         let n = tracked.outputs.points();
         let to = if certain { &mut self.largest } else { &mut self.possible };
         let mut vectors = Vec::new();
-        for g in BY_DIRECTION.into_iter().chain((0..n).map(|i| STOREYS + 2 * n + i)) {
+        for g in BY_DIRECTION.into_iter().chain((0..n).map(|i| Output::Acceleration(i).place(n))) {
             for view in 0..3 {
                 let size = |i: usize| sizes(all[i][g])[view];
                 let best =

@@ -105,7 +105,7 @@ pub(super) fn slow_fast_rate(
         Ok((outcomes, curve)) => {
             let mut outcomes = outcomes.into_iter();
             let estimates = named.map(|(path, unit)| match outcomes.next() {
-                Some(Ok((value, ends))) => Estimate::told(path, unit, value, ends),
+                Some(Ok((value, ends))) => Estimate::determined(path, unit, value, ends),
                 Some(Err(why)) => Estimate::refused(path, unit, why),
                 None => Estimate::refused(path, unit, ""),
             });

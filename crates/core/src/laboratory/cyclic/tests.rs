@@ -143,7 +143,7 @@ fn coverage_cyclic() {
     let counts = covered(200);
     let counts: Vec<(&str, u64)> = counts.iter().map(|(path, n)| (path.as_str(), *n)).collect();
     let refused = (0..200).filter(|seed| silent_is_refused(*seed)).count() as u64;
-    crate::laboratory::told(&counts, refused);
+    crate::laboratory::hold_to_coverage(&counts, refused);
 }
 
 /// Counts of intervals that cover the truth, and of tests whose drift was seen, over tests with a force
@@ -249,7 +249,7 @@ fn prop_intervals_of_a_locked_test_cover() {
 fn coverage_cyclic_drift() {
     let (counts, seen) = covered_under_drift(200);
     let counts: Vec<(&str, u64)> = counts.iter().map(|(path, n)| (path.as_str(), *n)).collect();
-    crate::laboratory::told(&counts, seen);
+    crate::laboratory::hold_to_coverage(&counts, seen);
 }
 
 #[test]
@@ -257,7 +257,7 @@ fn coverage_cyclic_drift() {
 fn coverage_cyclic_locked() {
     let counts = covered_where_locked(200);
     let counts: Vec<(&str, u64)> = counts.iter().map(|(path, n)| (path.as_str(), *n)).collect();
-    crate::laboratory::told(&counts, 200);
+    crate::laboratory::hold_to_coverage(&counts, 200);
 }
 
 /// Without the zeros of the sensors an offset would be friction that differs by direction.

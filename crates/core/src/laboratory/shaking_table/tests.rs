@@ -269,13 +269,13 @@ fn prop_intervals_cover_whatever_the_zero_of_a_sensor() {
 #[test]
 #[ignore = "200 records: cargo xtask coverage"]
 fn coverage_shaking_table_offset() {
-    crate::laboratory::told(&covered_off_zero(200), 200);
+    crate::laboratory::hold_to_coverage(&covered_off_zero(200), 200);
 }
 
 #[test]
 #[ignore = "200 records: cargo xtask coverage"]
 fn coverage_shaking_table_noisy_table() {
-    crate::laboratory::told(&covered_by_noisy_table(200), 200);
+    crate::laboratory::hold_to_coverage(&covered_by_noisy_table(200), 200);
 }
 
 /// Whether nothing is said of friction from a record at 0.9 of what would release the block.
@@ -304,7 +304,7 @@ fn a_record_without_sliding_is_refused() {
 #[test]
 #[ignore = "200 records: cargo xtask coverage"]
 fn coverage_shaking_table_friction() {
-    crate::laboratory::told(&covered(0, 1, 200), 200);
+    crate::laboratory::hold_to_coverage(&covered(0, 1, 200), 200);
 }
 
 #[test]
@@ -312,14 +312,14 @@ fn coverage_shaking_table_friction() {
 fn coverage_shaking_table_slider() {
     // Straight between its samples or on a curve: the limits of what is not known of the table.
     for finer in [1, 5] {
-        crate::laboratory::told(&covered(1, finer, 200), 200);
+        crate::laboratory::hold_to_coverage(&covered(1, finer, 200), 200);
     }
 }
 
 #[test]
 #[ignore = "200 records: cargo xtask coverage"]
 fn coverage_shaking_table_asymmetry() {
-    crate::laboratory::told(&covered(2, 1, 200), 200);
+    crate::laboratory::hold_to_coverage(&covered(2, 1, 200), 200);
 }
 
 #[test]
@@ -327,7 +327,7 @@ fn coverage_shaking_table_asymmetry() {
 fn coverage_shaking_table_storey() {
     // Straight between its samples or on a curve: the limits of what is not known of the table.
     for finer in [1, 5] {
-        crate::laboratory::told(&covered(3, finer, 200), 200);
+        crate::laboratory::hold_to_coverage(&covered(3, finer, 200), 200);
     }
 }
 
@@ -335,7 +335,7 @@ fn coverage_shaking_table_storey() {
 #[ignore = "200 records: cargo xtask coverage"]
 fn coverage_shaking_table_refused() {
     let refused = (0..200).filter(|seed| silent_is_refused(*seed)).count() as u64;
-    crate::laboratory::told(&[], refused);
+    crate::laboratory::hold_to_coverage(&[], refused);
 }
 
 #[test]

@@ -10,8 +10,8 @@ use super::{Dense, Shared};
 use crate::error::SolveError;
 use crate::linear::Window;
 use crate::response::Mode;
+use crate::response::output;
 use crate::slider::{Direction, Hold};
-use crate::solver::outputs::output;
 use crate::solver::phase::Reached;
 
 /// Keeps the block's numbers of a state.

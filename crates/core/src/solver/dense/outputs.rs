@@ -10,12 +10,13 @@ use fearless_simd::prelude::*;
 use super::equations::{OneStorey, unit};
 use super::lanes::{BATCH, Eight, Four, combine8, times8};
 use crate::linear::{QUIET, System};
-use crate::solver::outputs::{OutputRow, output};
+use crate::response::output::{self, Output};
+use crate::solver::outputs::OutputRow;
 
 /// Place of the storey's displacement, and drift, among the outputs.
-pub(super) const DISPLACEMENT: usize = output::STOREYS;
+pub(super) const DISPLACEMENT: usize = Output::Displacement(0).place(1);
 /// Place of the floor's acceleration.
-pub(super) const ACCELERATION: usize = output::STOREYS + 1;
+pub(super) const ACCELERATION: usize = Output::Acceleration(0).place(1);
 
 /// Outputs behind each gate.
 pub(super) const BEHIND: [u64; 4] = [

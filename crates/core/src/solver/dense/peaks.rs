@@ -9,7 +9,7 @@ use super::lanes::{Eight, Four, combine4, combine8, eight, four, greatest, large
 use super::series::{Series, Span};
 use crate::linear::polynomial::{ZERO, largest};
 use crate::response::Mode;
-use crate::solver::outputs::output;
+use crate::response::output;
 
 /// Candidates that are kept before they are settled.
 const CANDIDATES: usize = 16;

@@ -9,9 +9,9 @@ use super::outputs::{BEHIND, behind};
 use super::peaks::Samples;
 use crate::linear::{QUIET, Window};
 use crate::response::Mode;
+use crate::response::output;
 use crate::slider::Direction;
 use crate::solver::chords::clear_steps;
-use crate::solver::outputs::output;
 use crate::solver::windows::Extent;
 
 /// A chord over a sample is off by this part of what one over a batch is.

@@ -55,7 +55,7 @@ pub(super) struct Affine {
     pub(super) dt_s: f64,
     /// The components of the state that move.
     pub(super) moving: Vec<(usize, Row)>,
-    /// In the order of [`Direct::output`].
+    /// In the order of [`Direct::values_at`].
     pub(super) outputs: Vec<Number>,
     /// Numbers of which `‖ẍ‖²` at the start of a sample is the sum of the squares.
     pub(super) second: Vec<Number>,
@@ -212,7 +212,7 @@ impl<'a> Direct<'a> {
         course: &Course<'a>,
         normal_n: f64,
     ) -> (Matrices, Vec<(Vec<f64>, f64, f64)>) {
-        let (count, outputs) = (self.x.count(), self.peaks.values.len());
+        let count = self.x.count();
         let stride = count.next_multiple_of(4);
         let here = self.x.clone();
         let mut unit = vec![0.0; count + 1];
@@ -238,7 +238,7 @@ impl<'a> Direct<'a> {
         }
         let (b, g) = (units[count][..stride].to_vec(), nothing[..stride].to_vec());
         let row = |j: usize| (0..count).map(|i| units[i][j]).collect();
-        let rows = (stride..stride + outputs).map(|j| (row(j), units[count][j], nothing[j]));
+        let rows = (stride..nothing.len()).map(|j| (row(j), units[count][j], nothing[j]));
         (Matrices { stride, a, b, g }, rows.collect())
     }
 
@@ -257,8 +257,7 @@ impl<'a> Direct<'a> {
         self.look_at_orders(1, &Loads { acceleration, normal: [normal_n, 0.0] });
         let mut response = vec![0.0; stride];
         self.instant.order(1, &mut response);
-        let outputs = 0..self.peaks.values.len();
-        response.extend(outputs.map(|j| self.output(&self.instant, j).start()));
+        response.extend(self.values_at(&self.instant));
         // Instants have no more than one order.
         self.instant.clear();
         response

@@ -11,14 +11,13 @@ use fearless_simd::prelude::*;
 use super::super::chords::bound_between;
 use super::super::course::Course;
 use super::super::instructions::Job;
-use super::super::outputs::output;
 use super::super::phase::{Phase, Straight};
 use super::super::walk::Walk;
 use super::Direct;
 use super::affine::{Affine, Configuration, Nine, Number};
 use crate::linear::lanes::{eight, larger, largest_lane};
 use crate::linear::{BATCH, Force, Window};
-use crate::response::Mode;
+use crate::response::{Mode, output};
 use crate::slider::Contact;
 
 /// Candidates that are kept before they are settled.
@@ -257,7 +256,8 @@ impl<'a> Direct<'a> {
     ) {
         let taken = u64::MAX >> (64 - steps);
         let mut kept = [None; BATCH];
-        for (j, number) in affine.outputs.iter().enumerate() {
+        let count = self.peaks.values.len();
+        for (j, number) in affine.outputs[..count].iter().enumerate() {
             let y = &mut ahead.outputs[j];
             // Samples that are not taken do not count.
             let end = y[steps];

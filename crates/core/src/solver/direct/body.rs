@@ -135,7 +135,7 @@ pub(in crate::solver) struct Expansion {
 }
 
 /// `Σ c p`.
-fn combined(factors: &[f64], of: &[Polynomial]) -> Polynomial {
+pub(super) fn combined(factors: &[f64], of: &[Polynomial]) -> Polynomial {
     let all = || factors.iter().zip(of);
     core::array::from_fn(|k| all().fold(0.0, |sum, (c, p)| sum + c * p[k]))
 }
@@ -191,21 +191,6 @@ impl Body {
     /// Points whose motion is told: floors, or those of a structure by its modes.
     pub(super) fn point_count(&self) -> usize {
         self.points.as_ref().map_or(self.storeys(), |(points, _)| points.len())
-    }
-
-    /// Displacement of a point in a series.
-    pub(super) fn displacement(&self, series: &Expansion, point: usize) -> Polynomial {
-        match &self.points {
-            None => series.q[point],
-            Some((points, _)) => combined(&points[point], &series.q),
-        }
-    }
-
-    /// Total acceleration of a point in a series, with the slope's share.
-    pub(super) fn acceleration(&self, series: &Expansion, point: usize) -> Polynomial {
-        let Some((points, with_block)) = &self.points else { return series.floors[point] };
-        let of_modes = combined(&points[point], &series.floors);
-        core::array::from_fn(|k| of_modes[k] + with_block[point] * series.u[k])
     }
 
     /// `K q + C v`, order by order.

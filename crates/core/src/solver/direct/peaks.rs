@@ -4,45 +4,35 @@ use core::ops::Range;
 
 use super::super::course::Course;
 use super::super::ground::Ground;
-use super::super::outputs::output;
+use super::super::outputs::{Arms, Linear, Quantities};
 use super::super::phase::Straight;
 use super::Direct;
-use super::body::{Body, Expansion, Loads};
+use super::body::{Body, Expansion, Loads, combined};
 use crate::linear::polynomial::{
     DEGREE, Polynomial, ZERO, curvature_bound, largest, size_bound, value,
 };
-use crate::model::Model;
+use crate::model::{Contents, Model};
+use crate::response::output::{self, Output};
 use crate::response::{History, Mode};
 
 /// Largest sizes so far.
 pub(super) struct Peaks {
-    /// In the order of [`Direct::output`].
+    outputs: Vec<Output>,
     pub(super) values: Vec<f64>,
-    /// Whether the overturning moment is asked for.
-    pub(super) overturns: bool,
-    /// Mass times lever arm of the points' inertia.
-    arms: Vec<f64>,
-    /// Of the block's, and heights of the block and of the floors for what stands on them.
-    block_arm: f64,
-    heights_m: Vec<f64>,
+    /// What the overturning moment is made of, where it is asked for.
+    pub(super) arms: Option<Arms>,
     /// `g sin θ`, which accelerations are reported without.
     pub(super) slope_m_per_s2: f64,
 }
 
 impl Peaks {
-    /// None so far, of so many `contents` that slide each by itself.
-    pub(super) fn new(model: &Model, contents: usize) -> Self {
-        let block_m = model.block().height_m.unwrap_or(0.0);
-        let oscillators = if model.structure().is_some() { model.storeys() } else { 0 };
-        let arms = model.lever_arms();
-        let points = arms.iter().flatten();
-        let heights_m = core::iter::once(block_m).chain(points.clone().map(|point| point[1]));
+    /// None so far, of these contents that slide each by itself.
+    pub(super) fn new(model: &Model, contents: &[Contents]) -> Self {
+        let outputs: Vec<Output> = Output::all(model.points(), contents.len()).collect();
         Self {
-            values: vec![0.0; output::count(model.points()) + 2 * contents + oscillators],
-            overturns: model.block().width_m.is_some() && arms.is_some(),
-            heights_m: heights_m.collect(),
-            arms: points.map(|[mass_kg, above_m]| mass_kg * above_m).collect(),
-            block_arm: 0.5 * block_m * model.bare_block_kg(),
+            values: vec![0.0; outputs.len()],
+            outputs,
+            arms: Arms::new(model, contents),
             slope_m_per_s2: model.slope_m_per_s2(),
         }
     }
@@ -58,15 +48,15 @@ fn raise(peak: &mut f64, p: &Polynomial, part: f64) {
     *peak = largest(&p.map(|c| -c), part, largest(p, part, *peak));
 }
 
-/// An output as a part of an expansion.
-pub(super) enum Output<'e> {
+/// A number as it stands in an expansion, or made of several.
+pub(super) enum Part<'e> {
     /// Less a constant.
     Less(&'e Polynomial, f64),
     Difference([&'e Polynomial; 2]),
     Made(Polynomial),
 }
 
-impl Output<'_> {
+impl Part<'_> {
     /// Its value at the start.
     pub(super) fn start(&self) -> f64 {
         match self {
@@ -99,99 +89,137 @@ impl Output<'_> {
     }
 }
 
-impl<'a> Direct<'a> {
-    /// Output of the velocity of an interface.
-    pub(super) fn velocity_output(&self, interface: usize) -> usize {
-        let Some(i) = interface.checked_sub(1) else { return output::VELOCITY };
-        output::count(self.body.point_count()) + i
-    }
-
-    /// Output of the acceleration of contents.
-    pub(super) fn contents_acceleration_output(&self, i: usize) -> usize {
-        output::count(self.body.point_count()) + self.body.contents.len() + i
-    }
-
-    /// An output: those of [`output`], then velocities and accelerations of contents, then accelerations of
-    /// the oscillators of modes.
-    pub(super) fn output<'e>(&self, series: &'e Expansion, j: usize) -> Output<'e> {
-        let (body, n, slope) = (&self.body, self.body.point_count(), self.peaks.slope_m_per_s2);
-        let by_modes = body.points.is_some();
-        match j {
-            output::VELOCITY => Output::Less(&series.w, 0.0),
-            output::BLOCK => Output::Less(&series.u, slope),
-            output::SLIDER => Output::Less(&series.slider, 0.0),
-            output::FRICTION => Output::Less(&series.friction, 0.0),
-            output::BASE_SHEAR => Output::Less(&series.shear, 0.0),
-            output::OVERTURNING => Output::Made(self.moment(series)),
-            j if by_modes && j < output::acceleration(n, 0) => {
-                Output::Made(body.displacement(series, j - output::displacement(0)))
-            }
-            j if by_modes && j < output::acceleration(n, n) => {
-                let mut p = body.acceleration(series, j - output::acceleration(n, 0));
-                p[0] -= slope;
-                Output::Made(p)
-            }
-            j if by_modes && j < output::count(n) => {
-                let i = 1 + j - output::acceleration(n, n);
-                let [here, below] = [i, i - 1].map(|i| body.displacement(series, i));
-                Output::Made(core::array::from_fn(|k| here[k] - below[k]))
-            }
-            j if j < output::acceleration(n, 0) => {
-                Output::Less(&series.q[j - output::displacement(0)], 0.0)
-            }
-            j if j < output::acceleration(n, n) => {
-                Output::Less(&series.floors[j - output::acceleration(n, 0)], slope)
-            }
-            j if j < output::count(n) => {
-                let i = 1 + j - output::acceleration(n, n);
-                Output::Difference([&series.q[i], &series.q[i - 1]])
-            }
-            j => {
-                let (i, contents) = (j - output::count(n), self.body.contents.len());
-                match i {
-                    i if i < contents => Output::Less(&series.p[i], 0.0),
-                    i if i < 2 * contents => Output::Less(&series.carried[i - contents], slope),
-                    i => Output::Less(&series.floors[i - 2 * contents], slope),
-                }
+impl Linear for Part<'_> {
+    fn less(self, constant: f64) -> Self {
+        match self {
+            Self::Less(p, other) => Self::Less(p, other + constant),
+            part => {
+                let mut p = part.series();
+                p[0] -= constant;
+                Self::Made(p)
             }
         }
     }
 
+    fn sum((factor, first): (f64, Self), terms: impl Iterator<Item = (f64, Self)>) -> Self {
+        let mut sum = first.series().map(|c| factor * c);
+        for (factor, term) in terms {
+            let p = term.series();
+            sum.iter_mut().zip(p).for_each(|(sum, c)| *sum += factor * c);
+        }
+        Self::Made(sum)
+    }
+}
+
+/// The motion as series.
+pub(super) struct InSeries<'e> {
+    body: &'e Body,
+    series: &'e Expansion,
+}
+
+impl<'e> Quantities for InSeries<'e> {
+    type Value = Part<'e>;
+
+    fn zero(&self) -> Part<'e> {
+        Part::Less(&ZERO, 0.0)
+    }
+
+    fn velocity(&self) -> Part<'e> {
+        Part::Less(&self.series.w, 0.0)
+    }
+
+    fn block(&self) -> Part<'e> {
+        Part::Less(&self.series.u, 0.0)
+    }
+
+    fn slider(&self) -> Part<'e> {
+        Part::Less(&self.series.slider, 0.0)
+    }
+
+    fn friction(&self) -> Part<'e> {
+        Part::Less(&self.series.friction, 0.0)
+    }
+
+    fn base_shear(&self) -> Part<'e> {
+        Part::Less(&self.series.shear, 0.0)
+    }
+
+    fn displacement(&self, point: usize) -> Part<'e> {
+        match &self.body.points {
+            None => Part::Less(&self.series.q[point], 0.0),
+            Some((points, _)) => Part::Made(combined(&points[point], &self.series.q)),
+        }
+    }
+
+    fn drift(&self, point: usize) -> Part<'e> {
+        let q = &self.series.q;
+        match &self.body.points {
+            None => Part::Difference([&q[point], &q[point - 1]]),
+            Some((points, _)) => {
+                let [here, below] = [point, point - 1].map(|i| combined(&points[i], q));
+                Part::Made(core::array::from_fn(|k| here[k] - below[k]))
+            }
+        }
+    }
+
+    fn acceleration(&self, point: usize) -> Part<'e> {
+        let series = self.series;
+        let Some((points, with_block)) = &self.body.points else {
+            return Part::Less(&series.floors[point], 0.0);
+        };
+        let of_modes = combined(&points[point], &series.floors);
+        Part::Made(core::array::from_fn(|k| of_modes[k] + with_block[point] * series.u[k]))
+    }
+
+    fn contents(&self, number: usize) -> [Part<'e>; 2] {
+        let Expansion { p, carried, .. } = self.series;
+        [Part::Less(&p[number], 0.0), Part::Less(&carried[number], 0.0)]
+    }
+}
+
+impl<'a> Direct<'a> {
+    /// Output of the velocity of an interface.
+    pub(super) fn velocity_output(&self, interface: usize) -> usize {
+        let output = interface.checked_sub(1).map_or(Output::Velocity, Output::ContentsVelocity);
+        output.place(self.body.point_count())
+    }
+
+    /// Output of the acceleration of contents.
+    pub(super) fn contents_acceleration_output(&self, i: usize) -> usize {
+        Output::ContentsAcceleration(i).place(self.body.point_count())
+    }
+
+    /// Values of all outputs at an instant, then accelerations of the oscillators that modes are.
+    pub(super) fn values_at<'e>(
+        &'e self,
+        instant: &'e Expansion,
+    ) -> impl Iterator<Item = f64> + 'e {
+        let (motion, peaks) = (InSeries { body: &self.body, series: instant }, &self.peaks);
+        let slope = peaks.slope_m_per_s2;
+        let oscillators = if self.body.points.is_some() { &instant.floors[..] } else { &[] };
+        let outputs = peaks.outputs.iter();
+        outputs
+            .map(move |output| output.of(&motion, peaks.arms.as_ref(), slope).start())
+            .chain(oscillators.iter().map(move |p| p[0] - slope))
+    }
+
     /// Looks for peaks in the part of the series just gone through.
     pub(super) fn look_at_outputs(&mut self, course: &mut Course<'_>, part: f64) {
-        for j in 0..self.peaks.values.len() {
-            match j {
-                output::FRICTION => self.look_at_friction(course, part),
-                output::OVERTURNING if !self.peaks.overturns => {}
-                j => {
-                    let output = self.output(&self.series, j);
-                    if !(output.size_bound() <= self.peaks.values[j]) {
-                        let p = output.series();
-                        raise(&mut self.peaks.values[j], &p, part);
+        for j in 0..self.peaks.outputs.len() {
+            match self.peaks.outputs[j] {
+                Output::Friction => self.look_at_friction(course, part),
+                Output::Overturning if self.peaks.arms.is_none() => {}
+                output => {
+                    let Peaks { values, arms, slope_m_per_s2, .. } = &mut self.peaks;
+                    let motion = InSeries { body: &self.body, series: &self.series };
+                    let output = output.of(&motion, arms.as_ref(), *slope_m_per_s2);
+                    if !(output.size_bound() <= values[j]) {
+                        raise(&mut values[j], &output.series(), part);
                     }
                 }
             }
         }
         self.look_at_stop(course, part);
-    }
-
-    /// Overturning moment of the inertia of block, floors and contents about the sliding surface.
-    fn moment(&self, series: &Expansion) -> Polynomial {
-        if !self.peaks.overturns {
-            return ZERO;
-        }
-        let body = &self.body;
-        let Peaks { heights_m, arms, block_arm, .. } = &self.peaks;
-        let points: Vec<Polynomial> =
-            (0..arms.len()).map(|i| body.acceleration(series, i)).collect();
-        core::array::from_fn(|k| {
-            let own = block_arm * series.u[k];
-            let floors = arms.iter().zip(&points).map(|(arm, a)| arm * a[k]).sum::<f64>();
-            let contents = body.contents.iter().zip(&series.carried);
-            let contents =
-                contents.map(|(c, a)| heights_m[c.floor] * c.mass_kg * a[k]).sum::<f64>();
-            own + floors + contents
-        })
     }
 
     /// Friction takes what it can where the block leans on a rigid stop, the stop the rest.
@@ -239,8 +267,7 @@ impl<'a> Direct<'a> {
         states.resize(self.x.count(), [0.0]);
         self.x.get(states.as_flattened_mut());
         outputs.clear();
-        let all = 0..self.peaks.values.len();
-        outputs.extend(all.map(|j| [self.output(&self.instant, j).start()]));
+        outputs.extend(self.values_at(&self.instant).map(|value| [value]));
         if self.modes[0] == Mode::Stick {
             let [friction_n] = &mut outputs[output::FRICTION];
             let hold = course.hold(self.x.s);
@@ -277,6 +304,7 @@ impl<'a> Direct<'a> {
         are_rows: bool,
     ) {
         let (n, parts, count) = (self.body.storeys(), self.body.contents.len(), times_s.len());
+        let points = self.body.point_count();
         let items = &self.body.part_of;
         let Some(h) = &mut self.history else { return };
         let (first, end) = (h.time_s.len(), h.time_s.len() + count);
@@ -308,18 +336,18 @@ impl<'a> Direct<'a> {
         side_by_side(count, &mut h.storey_displacement_m, &of_storeys[..n]);
         side_by_side(count, &mut h.storey_velocity_m_per_s, &of_storeys[n..]);
         let first = match self.body.points {
-            Some(_) => output::count(self.body.point_count()) + 2 * parts,
-            None => output::acceleration(n, 0),
+            Some(_) => self.peaks.values.len(),
+            None => Output::Acceleration(0).place(points),
         };
         let accelerations = &outputs[first..][..n];
         side_by_side(count, &mut h.storey_acceleration_m_per_s2, accelerations);
-        let accelerations = &outputs[output::count(self.body.point_count()) + parts..][..parts];
         let (displacements, velocities) = of_contents.split_at(parts);
         for k in 0..count {
             for &part in items {
                 h.contents_displacement_m.push(displacements[part][k]);
                 h.contents_velocity_m_per_s.push(velocities[part][k]);
-                h.contents_acceleration_m_per_s2.push(accelerations[part][k]);
+                let acceleration = Output::ContentsAcceleration(part).place(points);
+                h.contents_acceleration_m_per_s2.push(outputs[acceleration][k]);
             }
         }
     }

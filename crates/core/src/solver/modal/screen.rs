@@ -11,7 +11,6 @@ use fearless_simd::prelude::*;
 use super::super::chords::clear_steps;
 use super::super::course::Course;
 use super::super::ground::{Normal, largest_size};
-use super::super::outputs::output;
 use super::super::recorder::Knot;
 use super::super::tables::{Batch, PhaseTables};
 use super::peaks::Extent;
@@ -19,7 +18,7 @@ use super::{Curvature, InForce, Modal};
 use crate::linear::lanes::{Eight, Width, eight, greatest, least};
 use crate::linear::{BATCH, Force, QUIET, Window};
 use crate::progress::Pulse;
-use crate::response::Mode;
+use crate::response::{Mode, output};
 use crate::slider::{Direction, Hold};
 
 /// A chord over a sample is off by this part of what one over a batch is.

@@ -11,7 +11,7 @@ use super::{InForce, Modal};
 use crate::linear::lanes::{Width, least};
 use crate::linear::polynomial::{DEGREE, Polynomial};
 use crate::linear::{Load, Series};
-use crate::response::Mode;
+use crate::response::{Mode, output};
 use crate::slider::Fading;
 
 /// The motion from an instant on, by one number of it.
@@ -68,7 +68,7 @@ impl<S: Simd, W: Width> Modal<'_, S, W> {
             let (x, Motion { load, number, .. }) = (&self.x[..stride], &mut self.motion);
             *number = phase.solution.number(simd, &phase.system, (x, load), &mut self.series);
             if mode == Mode::Stick {
-                let row = &phase.outputs.rows[super::output::FRICTION];
+                let row = &phase.outputs.rows[output::FRICTION];
                 number[0] += row.state[0] * x[0] + (row.of_stop * stop + row.constant);
             }
         }

@@ -12,6 +12,7 @@ use crate::linear::polynomial::{
     DEGREE, Polynomial, ZERO, curvature_bound, curvature_term, largest, value,
 };
 use crate::numerics::algebra::dot;
+use crate::response::output::Output;
 
 /// A relative difference of peaks that is rounding.
 const ROUNDING: f64 = 1e-15;
@@ -150,37 +151,6 @@ impl Arch {
     }
 }
 
-/// Places of the outputs; those of the storeys follow.
-#[derive(Clone, Copy)]
-pub(super) enum Output {
-    Velocity,
-    Block,
-    FrictionForce,
-    SliderForce,
-    Shear,
-    /// By axis only.
-    Moment,
-    Displacement(usize),
-    Acceleration(usize),
-    Drift(usize),
-}
-
-impl Output {
-    fn place(self, points: usize) -> usize {
-        match self {
-            Self::Velocity => 0,
-            Self::Block => 1,
-            Self::FrictionForce => 2,
-            Self::SliderForce => 3,
-            Self::Shear => 4,
-            Self::Moment => 5,
-            Self::Displacement(i) => 6 + i,
-            Self::Acceleration(i) => 6 + points + i,
-            Self::Drift(i) => 6 + 2 * points + i,
-        }
-    }
-}
-
 /// All peaks.
 pub(super) struct Peaks {
     points: usize,
@@ -291,7 +261,7 @@ impl Peaks {
         sliding.note(s);
         Self {
             points: system.points,
-            all: vec![Peak::default(); 6 + 3 * system.points],
+            all: vec![Peak::default(); Output::count(system.points, 0)],
             bends: vec![0.0; system.modes()],
             sliding,
             peak_time_s: 0.0,
@@ -319,7 +289,7 @@ impl Peaks {
         }
         let block = self.look_at_block(system, series, to);
         if system.modes() > 0 {
-            self.look_at(Output::Shear, &series.shear, to);
+            self.look_at(Output::BaseShear, &series.shear, to);
             self.look_at_points(system, (series, to), end, block.as_ref());
         }
     }
@@ -429,8 +399,8 @@ impl Peaks {
         let by_axis = system.kinetic_per_kg.is_constant()
             && matches!(series.kind, Kind::Slip | Kind::Start | Kind::Turning);
         let part = SeriesPart { series, to, near: near.as_ref(), chords: &chords };
-        self.look_at_composed(Output::FrictionForce, &friction, &part, by_axis);
-        self.look_at_composed(Output::SliderForce, &slider, &part, false);
+        self.look_at_composed(Output::Friction, &friction, &part, by_axis);
+        self.look_at_composed(Output::Slider, &slider, &part, false);
         if let Some(mass) = &system.mass {
             // b = C (P − φ)
             let force = |axis: usize, k: usize| series.pull[axis][k] - series.friction[axis][k];
@@ -489,7 +459,7 @@ impl Peaks {
     fn look_at_moment(&mut self, of: &Moment, part: &SeriesPart<'_>) {
         let &SeriesPart { series, to, near, .. } = part;
         let (axis, mut along) = (of.axis, [ZERO; 2]);
-        let all = &mut self.all[Output::Moment.place(self.points)];
+        let all = &mut self.all[Output::Overturning.place(self.points)];
         match near {
             None => {
                 let friction = &series.friction[axis];
@@ -521,8 +491,8 @@ impl Peaks {
         }
         let block = (Output::Block, pulls, arc.friction);
         let of = [
-            (Output::FrictionForce, [[0.0; 2]; 2], kg * arc.friction),
-            (Output::SliderForce, slider, kg * arc.friction),
+            (Output::Friction, [[0.0; 2]; 2], kg * arc.friction),
+            (Output::Slider, slider, kg * arc.friction),
         ];
         for (axis, moment) in system.overturning.iter().enumerate() {
             let Some((arm, along)) = moment.as_ref().filter(|_| system.mass.is_none()) else {
@@ -534,7 +504,7 @@ impl Peaks {
             for (u, left) in within.chain([(arc.to, 0.0)]) {
                 let pull = to[axis] + (from[axis] - to[axis]) * left;
                 let size = (along[axis] * (pull - arc.friction * u[axis]) - modes).abs();
-                let peak = &mut self.all[Output::Moment.place(self.points)];
+                let peak = &mut self.all[Output::Overturning.place(self.points)];
                 peak.axes[axis] = peak.axes[axis].max(size);
             }
         }
@@ -579,7 +549,7 @@ impl Peaks {
             let b = block(u);
             moments.map(|moment| moment.map_or(0.0, |(modes, along)| inner(along, b) - modes))
         };
-        raise(Output::Moment, &of);
+        raise(Output::Overturning, &of);
     }
 }
 

@@ -6,7 +6,7 @@ use crate::linear;
 use crate::model::{Model, OscillatorInPlane, Structure};
 use crate::numerics::algebra::dot;
 use crate::slider::{Disc, Kinetic};
-use crate::solver::outputs::overturning;
+use crate::solver::outputs::Arms;
 use crate::solver::tables::system_of;
 
 /// Part of a structure's mass, and of a point's motion, below which what moves with the block beside what does
@@ -115,10 +115,9 @@ impl System {
             with_block: Vec::new(),
             oscillators: Vec::new(),
             overturning: [0, 1].map(|k| {
-                let found = overturning(models[k], &axes[k])?;
-                let (arm, block) = found.all();
+                let (arm, block) = Arms::new(models[k], &[])?.by_modes(&axes[k]);
                 let along = if k == 0 { [block, 0.0] } else { [0.0, block] };
-                Some((place(k, if n == 0 { &[] } else { arm }), along))
+                Some((place(k, if n == 0 { &[] } else { &arm }), along))
             }),
             rate_rad_per_s: axes.iter().fold(0.0, |rate: f64, a| rate.max(a.slip_rate_rad_per_s)),
         })

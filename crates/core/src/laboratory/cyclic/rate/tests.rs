@@ -234,7 +234,7 @@ fn coverage_cyclic_rate() {
     let counts = covered(200, several);
     let counts: Vec<(&str, u64)> = counts.iter().map(|(path, n)| (path.as_str(), *n)).collect();
     let refused = (0..200).filter(|seed| silent_is_refused(*seed)).count() as u64;
-    crate::laboratory::told(&counts, refused);
+    crate::laboratory::hold_to_coverage(&counts, refused);
 }
 
 #[test]
@@ -242,7 +242,7 @@ fn coverage_cyclic_rate() {
 fn coverage_cyclic_rate_in_one_file() {
     let counts = covered(200, single);
     let counts: Vec<(&str, u64)> = counts.iter().map(|(path, n)| (path.as_str(), *n)).collect();
-    crate::laboratory::told(&counts, 200);
+    crate::laboratory::hold_to_coverage(&counts, 200);
 }
 
 /// Why slow, fast and rate are not told.
