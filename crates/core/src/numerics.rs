@@ -7,6 +7,7 @@ mod directions;
 pub mod distribution;
 pub mod fractile;
 mod hash;
+pub(crate) mod instructions;
 mod latin;
 pub mod random;
 mod sobol;
@@ -14,6 +15,7 @@ mod sort;
 
 pub use cholesky::cholesky;
 pub(crate) use hash::Stream;
+pub use instructions::InstructionSet;
 pub(crate) use latin::coordinate as latin_coordinate;
 pub(crate) use sobol::Coordinate;
 pub use sobol::{MAX_DIMENSIONS, unit_points};

@@ -5,7 +5,6 @@ mod course;
 mod dense;
 mod direct;
 mod ground;
-mod instructions;
 mod modal;
 mod outputs;
 mod phase;
@@ -26,7 +25,7 @@ use crate::progress::{GoOn, UNWATCHED};
 use crate::response::{Method, Response};
 
 pub use crate::linear::{FrameModes, shear_frame_modes};
-pub use instructions::InstructionSet;
+pub use crate::numerics::InstructionSet;
 pub use prepared::{Prepared, PreparedMotion, Workspace};
 pub use walk::EVENTS_PER_INTERVAL_LIMIT;
 

@@ -221,8 +221,8 @@ fn of_peaks(
     };
     for (printed, coefficient, output) in [
         (d.peak_base_shear_n, d.base_shear_coefficient, Output::BaseShear),
-        (d.peak_friction_force_n, d.friction_coefficient_used, Output::Friction),
-        (d.peak_slider_force_n, d.slider_force_coefficient, Output::Slider),
+        (d.peak_friction_force_n, d.friction_coefficient_used, Output::FrictionForce),
+        (d.peak_slider_force_n, d.slider_force_coefficient, Output::SliderForce),
     ] {
         c.within(printed, own.peak(output), force_n);
         c.within(coefficient, over(output, weight_n), force_n / weight_n);

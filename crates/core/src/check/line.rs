@@ -16,8 +16,6 @@ mod sweep;
 mod watch;
 mod work;
 
-use fearless_simd::{Level, dispatch};
-
 use self::knots::{Acting, Knots, LaneJudge, Worst, lists_of};
 use self::watch::Watched;
 use super::collocation::Rule;
@@ -27,6 +25,8 @@ use super::judge::{Directions, Given, Judge, Run, Sizes};
 use super::structure::{Phase, Structure, excess, larger};
 use super::{ClosestCall, DecisionKind};
 use crate::error::Stopped;
+use crate::numerics::InstructionSet;
+use crate::numerics::instructions::vectorize;
 use crate::progress::{Pulse, UNWATCHED};
 use crate::response::Mode;
 use crate::response::output::{BLOCK, VELOCITY};
@@ -50,7 +50,7 @@ pub(super) struct Line<'a> {
     /// Intervals that were swept.
     #[cfg(test)]
     swept: usize,
-    level: Level,
+    instructions: InstructionSet,
 }
 
 impl<'a> Judge<'a, Line<'a>> {
@@ -70,7 +70,7 @@ impl<'a> Judge<'a, Line<'a>> {
             longest_s: given.history.time_s.windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max),
             #[cfg(test)]
             swept: 0,
-            level: Level::new(),
+            instructions: InstructionSet::best(),
         };
         let mut judge = Self::new(given, slides, line);
         let (h, law) = (judge.h, judge.law);
@@ -96,7 +96,7 @@ impl<'a> Judge<'a, Line<'a>> {
             slope: self.model.slope_m_per_s2(),
             instant_s: self.instant_s,
             vertical: self.ground.has_vertical(),
-            level: self.axes.level,
+            instructions: self.axes.instructions,
         }
     }
 
@@ -159,7 +159,7 @@ impl<'a> Directions for Judge<'a, Line<'a>> {
         let (bench, outputs) = (self.bench(), self.outputs);
         let acting = Acting { stop: &stop, held: &held, passed: &passed };
         let to = (&mut knots, &mut pulse);
-        dispatch!(self.axes.level, simd => bench.knots(simd, outputs, &mut worst, acting, to))?;
+        vectorize!(self.axes.instructions, simd => bench.knots(simd, outputs, &mut worst, acting, to))?;
         self.pulse = pulse;
         if worst.broken.0.iter().any(|x| x.is_nan())
             || !h.surface_displacement_m.iter().all(|u| u.is_finite())
@@ -429,28 +429,20 @@ mod tests {
 
     #[test]
     fn same_bits_by_every_instruction_set() {
-        let mut levels = vec![Level::new()];
-        #[cfg(target_arch = "x86_64")]
-        {
-            let best = Level::new();
-            levels.extend(best.as_avx2().map(Level::Avx2));
-            levels.extend(best.as_sse4_2().map(Level::Sse4_2));
-            levels.extend(best.as_sse2().map(Level::Sse2));
-        }
         for n in [0, 1, 3] {
             let (model, motion, response) = wrong(n, 99, 0.0);
             let structure = Structure::new(&model, false);
-            let of = |level| {
+            let of = |instructions| {
                 let (law, outputs) = (Law::new(&model, false), Outputs::new(&model));
                 let given = given((&model, &motion, &response), (&law, &outputs));
                 let mut judge = Judge::of_line(given, &structure);
-                judge.axes.level = level;
+                judge.axes.instructions = instructions;
                 judge.run(1e-10).unwrap().unwrap()
             };
-            let first = of(levels[0]);
+            let first = of(InstructionSet::best());
             assert!(first.equilibrium_residual > 0.01 && first.equilibrium_residual.is_finite());
-            for &level in &levels {
-                assert_eq!(of(level), first, "{n} storeys, {level:?}");
+            for set in InstructionSet::all() {
+                assert_eq!(of(set), first, "{n} storeys, {set:?}");
             }
         }
     }

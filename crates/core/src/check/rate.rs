@@ -167,8 +167,9 @@ impl RateFriction {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::InstructionSet;
+    use crate::numerics::instructions::vectorize;
     use crate::slider::{Friction, RateLaw};
-    use fearless_simd::{Level, dispatch};
 
     /// As the definition of the law has it, alone, in lanes and piece by piece.
     #[test]
@@ -191,7 +192,7 @@ mod tests {
                     assert!((found - expected).abs() < 1e-16, "{speed}: {found} {expected}");
                 }
                 for near in [0.0, speed - 0.02, speed + 0.02] {
-                    let lanes = dispatch!(Level::new(), simd => {
+                    let lanes = vectorize!(InstructionSet::best(), simd => {
                         let [near, speed] = [near, speed].map(|x| f64x8::splat(simd, x));
                         let faded = own.faded_of(simd, near);
                         own.coefficients(simd, speed, [near, faded]).to_array()

@@ -19,10 +19,10 @@ pub(crate) enum Output {
     Velocity,
     /// Total acceleration of the block less the slope's pull, in m/s².
     Block,
-    /// All that passes from the table to the block but the force of a stop, in N.
-    Slider,
+    /// All that passes from the table to the block, in N.
+    SliderForce,
     /// `T` in N.
-    Friction,
+    FrictionForce,
     /// Base shear of the structure in N.
     BaseShear,
     /// Overturning moment about the sliding surface in N m.
@@ -47,8 +47,8 @@ impl Output {
         match self {
             Self::Velocity => VELOCITY,
             Self::Block => BLOCK,
-            Self::Slider => SLIDER,
-            Self::Friction => FRICTION,
+            Self::SliderForce => SLIDER,
+            Self::FrictionForce => FRICTION,
             Self::BaseShear => BASE_SHEAR,
             Self::Overturning => OVERTURNING,
             Self::Displacement(i) => OF_BLOCK + i,
@@ -72,8 +72,8 @@ impl Output {
         let of_block = [
             Self::Velocity,
             Self::Block,
-            Self::Slider,
-            Self::Friction,
+            Self::SliderForce,
+            Self::FrictionForce,
             Self::BaseShear,
             Self::Overturning,
         ];

@@ -395,6 +395,8 @@ fn regular_step(times_s: &[f64]) -> (Option<f64>, Vec<usize>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::InstructionSet;
+    use crate::numerics::instructions::vectorize;
 
     fn noise(count: usize) -> Vec<f64> {
         let mut x = 1_u32;
@@ -407,7 +409,7 @@ mod tests {
 
     #[test]
     fn sizes_and_roughness_of_every_batch() {
-        fearless_simd::dispatch!(fearless_simd::Level::new(), simd => sizes_and_roughness(simd));
+        vectorize!(InstructionSet::best(), simd => sizes_and_roughness(simd));
     }
 
     fn sizes_and_roughness<S: Simd>(simd: S) {

@@ -40,11 +40,11 @@ pub(super) trait Quantities {
     /// `u`.
     fn block(&self) -> Self::Value;
     /// What passes from the table to the block.
-    fn slider(&self) -> Self::Value;
+    fn slider_n(&self) -> Self::Value;
     /// `T`.
-    fn friction(&self) -> Self::Value;
+    fn friction_n(&self) -> Self::Value;
     /// `L·f`.
-    fn base_shear(&self) -> Self::Value;
+    fn base_shear_n(&self) -> Self::Value;
     /// Displacement of a point.
     fn displacement(&self, point: usize) -> Self::Value;
     /// Displacement of a point over the one before it, which is not the first.
@@ -61,9 +61,9 @@ impl Output {
         match self {
             Self::Velocity => motion.velocity(),
             Self::Block => motion.block().less(slope),
-            Self::Slider => motion.slider(),
-            Self::Friction => motion.friction(),
-            Self::BaseShear => motion.base_shear(),
+            Self::SliderForce => motion.slider_n(),
+            Self::FrictionForce => motion.friction_n(),
+            Self::BaseShear => motion.base_shear_n(),
             Self::Overturning => {
                 let Some(arms) = arms else { return motion.zero() };
                 let points = arms.points.iter().enumerate();
@@ -224,7 +224,7 @@ impl Quantities for Rows<'_> {
     }
 
     /// In slip `T − stop − c ṡ − k s`, in stick `M1 a − L·f`.
-    fn slider(&self) -> OutputRow {
+    fn slider_n(&self) -> OutputRow {
         let system = self.system;
         if self.slip.is_none() {
             let row = self.of_f(&system.participation, -1.0);
@@ -236,9 +236,9 @@ impl Quantities for Rows<'_> {
     }
 
     /// In slip with what of the restraint is friction, in stick the rest of what passes.
-    fn friction(&self) -> OutputRow {
+    fn friction_n(&self) -> OutputRow {
         let Some(slip) = self.slip else {
-            let mut row = OutputRow { of_stop: 1.0, ..self.slider() };
+            let mut row = OutputRow { of_stop: 1.0, ..self.slider_n() };
             row.state[0] = self.system.stiffness_n_per_m;
             return row;
         };
@@ -247,7 +247,7 @@ impl Quantities for Rows<'_> {
         row
     }
 
-    fn base_shear(&self) -> OutputRow {
+    fn base_shear_n(&self) -> OutputRow {
         self.of_f(&self.system.participation, 1.0)
     }
 

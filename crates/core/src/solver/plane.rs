@@ -28,11 +28,11 @@ use self::system::{Loads, State, inner, norm};
 use self::terms::Scales;
 use super::course::{self, Course};
 use super::ground::{Ground, Stretch};
-use super::instructions::InstructionSet;
 use super::phase::{Phase, Reached};
 use super::slider::leading;
 use super::walk::Walk;
 use crate::error::SolveError;
+use crate::numerics::InstructionSet;
 use crate::response::{EventInPlane, EventKind, Mode};
 use crate::slider::Direction;
 

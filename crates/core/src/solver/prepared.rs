@@ -7,7 +7,6 @@ use fearless_simd::prelude::*;
 
 use super::course::{Course, Sliding};
 use super::ground::{Ground, Normal, Sampling, contact_loss_s, varying_normal};
-use super::instructions::{InstructionSet, Job};
 use super::modal::{Buffers, Modal};
 use super::phase::Phase;
 use super::recorder::{self, Recorder};
@@ -20,7 +19,9 @@ use crate::error::SolveError;
 use crate::linear::lanes::{Many, One, Width};
 use crate::model::Model;
 use crate::motion::GroundMotion;
+use crate::numerics::InstructionSet;
 use crate::numerics::fractile::upper_median;
+use crate::numerics::instructions::vectorize;
 use crate::progress::{GoOn, Pulse, UNWATCHED};
 use crate::response::{History, Method, PointFactors, Response, StopDemands};
 use crate::slider::Law;
@@ -228,21 +229,7 @@ pub(super) fn solve_once(
 }
 
 fn tables_of(model: &Model, dt_s: Option<f64>) -> Tables {
-    InstructionSet::best().run(TablesOf { model, dt_s })
-}
-
-struct TablesOf<'a> {
-    model: &'a Model,
-    dt_s: Option<f64>,
-}
-
-impl Job for TablesOf<'_> {
-    type Output = Tables;
-
-    #[inline(always)]
-    fn run<S: Simd>(self, simd: S) -> Tables {
-        Tables::new(simd, self.model, self.dt_s)
-    }
+    vectorize!(InstructionSet::best(), simd => Tables::new(simd, model, dt_s))
 }
 
 fn solve(
@@ -346,7 +333,7 @@ fn solve_along_x(
     let away = law.under(model.normal_n()).without_walls();
     let recorder =
         with_history.then(|| Recorder::new(&tables.stick.system, &away, motion.len(), slope));
-    let solved = instructions.run(Analysis {
+    let of = Analysis {
         model,
         tables,
         law: &away,
@@ -354,6 +341,10 @@ fn solve_along_x(
         recorder,
         pulse: Pulse::new(go_on),
         buffers: &mut workspace.buffers,
+    };
+    let solved = vectorize!(instructions, simd => match model.storeys() {
+        0 | 1 => of.solve(simd, One),
+        n => of.solve(simd, Many(n)),
     });
     let (mut outcome, recorder) = match solved {
         // What would happen beyond a rigid stop says nothing.
@@ -493,34 +484,25 @@ struct Analysis<'a> {
     buffers: &'a mut Buffers,
 }
 
-impl Job for Analysis<'_> {
-    type Output = Result<(Outcome, Option<Recorder>), SolveError>;
-
+impl Analysis<'_> {
     #[inline(always)]
-    fn run<S: Simd>(self, simd: S) -> Self::Output {
-        #[inline(always)]
-        fn of<S: Simd, W: Width>(
-            simd: S,
-            width: W,
-            job: Analysis<'_>,
-        ) -> Result<(Outcome, Option<Recorder>), SolveError> {
-            let Analysis { model, tables, law, ground, recorder, pulse, buffers } = job;
-            let lists = (take(&mut buffers.released), take(&mut buffers.events));
-            let phase = Modal::new((simd, width), (tables, law), ground, recorder, buffers);
-            let place = phase.place(0);
-            let course = Course::new(SliderState::new(law, place[0], place[1]), place, lists);
-            let before = [model.slope_m_per_s2(), model.normal_n()];
-            let units = 32 * (1 + width.modes() as u32);
-            let mut walk = Walk::new((phase, course), (ground, before), (pulse, units));
-            walk.go()?;
-            let outcome = walk.outcome(tables.overturns());
-            let Walk { phase, course, .. } = walk;
-            (buffers.released, buffers.events) = (course.released, course.events);
-            Ok((outcome, phase.leave(buffers)))
-        }
-        match self.model.storeys() {
-            0 | 1 => of(simd, One, self),
-            n => of(simd, Many(n), self),
-        }
+    fn solve<S: Simd, W: Width>(
+        self,
+        simd: S,
+        width: W,
+    ) -> Result<(Outcome, Option<Recorder>), SolveError> {
+        let Analysis { model, tables, law, ground, recorder, pulse, buffers } = self;
+        let lists = (take(&mut buffers.released), take(&mut buffers.events));
+        let phase = Modal::new((simd, width), (tables, law), ground, recorder, buffers);
+        let place = phase.place(0);
+        let course = Course::new(SliderState::new(law, place[0], place[1]), place, lists);
+        let before = [model.slope_m_per_s2(), model.normal_n()];
+        let units = 32 * (1 + width.modes() as u32);
+        let mut walk = Walk::new((phase, course), (ground, before), (pulse, units));
+        walk.go()?;
+        let outcome = walk.outcome(tables.overturns());
+        let Walk { phase, course, .. } = walk;
+        (buffers.released, buffers.events) = (course.released, course.events);
+        Ok((outcome, phase.leave(buffers)))
     }
 }

@@ -95,7 +95,7 @@ pub(super) fn solve(
             table: table[sample],
             state: &state,
             block: step.u - slope,
-            friction_n: at.friction(),
+            friction_n: at.friction_n(),
             f: &step.f,
         };
         recorder.store(&system, &stored, row);
@@ -200,16 +200,16 @@ impl Quantities for AtSample<'_> {
         self.step.u
     }
 
-    fn slider(&self) -> f64 {
+    fn slider_n(&self) -> f64 {
         let Step { s, w, .. } = *self.step;
-        self.friction() - self.program.restoring_n(s, w, self.sample)
+        self.friction_n() - self.program.restoring_n(s, w, self.sample)
     }
 
-    fn friction(&self) -> f64 {
+    fn friction_n(&self) -> f64 {
         self.program.friction_n(self.step, self.sample)
     }
 
-    fn base_shear(&self) -> f64 {
+    fn base_shear_n(&self) -> f64 {
         dot(&self.program.system.participation, &self.step.f)
     }
 

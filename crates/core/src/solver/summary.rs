@@ -41,7 +41,7 @@ pub(super) fn of_peaks(
         None => (points, Vec::new()),
     };
     let shear_n = if model.storeys() == 0 { 0.0 } else { peak(Output::BaseShear) };
-    let [friction_n, slider_n] = [Output::Friction, Output::Slider].map(&peak);
+    let [friction_n, slider_n] = [Output::FrictionForce, Output::SliderForce].map(&peak);
     Demands {
         storeys,
         points,

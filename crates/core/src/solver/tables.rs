@@ -6,13 +6,14 @@ use std::sync::{Arc, OnceLock};
 use fearless_simd::prelude::*;
 
 use super::dense;
-use super::instructions::{InstructionSet, Job};
 use super::outputs::{self, Arms, Outputs};
 use crate::linear::polynomial::DEGREE;
 use crate::linear::{
     BATCH, MAX_RATE_STEP, Maps, Row, Solution, StoreyDamping, System, Units, orders,
 };
 use crate::model::{Damping, Model};
+use crate::numerics::InstructionSet;
+use crate::numerics::instructions::vectorize;
 use crate::response::output;
 use crate::slider::{Law, Restraint, Restraints};
 
@@ -74,7 +75,8 @@ impl LazyPhase {
     #[cold]
     #[inline(never)]
     fn make(&self) -> &PhaseTables {
-        InstructionSet::best().run(MakePhase(self))
+        let make = || vectorize!(InstructionSet::best(), simd => PhaseTables::new(simd, self));
+        self.phase.get_or_init(make)
     }
 }
 
@@ -84,38 +86,6 @@ impl Deref for LazyPhase {
     #[inline(always)]
     fn deref(&self) -> &PhaseTables {
         self.get()
-    }
-}
-
-struct MakePhase<'a>(&'a LazyPhase);
-
-impl<'a> Job for MakePhase<'a> {
-    type Output = &'a PhaseTables;
-
-    #[inline(always)]
-    fn run<S: Simd>(self, simd: S) -> &'a PhaseTables {
-        self.0.phase.get_or_init(|| {
-            simd.vectorize(
-                #[inline(always)]
-                || PhaseTables::new(simd, self.0),
-            )
-        })
-    }
-}
-
-struct MakeBatch<'a>(&'a PhaseTables, f64);
-
-impl<'a> Job for MakeBatch<'a> {
-    type Output = &'a Batch;
-
-    #[inline(always)]
-    fn run<S: Simd>(self, simd: S) -> &'a Batch {
-        self.0.batch.get_or_init(|| {
-            simd.vectorize(
-                #[inline(always)]
-                || Batch::new(simd, self.0, self.1),
-            )
-        })
     }
 }
 
@@ -344,7 +314,9 @@ impl PhaseTables {
     #[cold]
     #[inline(never)]
     fn make_batch(&self) -> Option<&Batch> {
-        Some(InstructionSet::best().run(MakeBatch(self, self.batch_s?)))
+        let dt_s = self.batch_s?;
+        let make = || vectorize!(InstructionSet::best(), simd => Batch::new(simd, self, dt_s));
+        Some(self.batch.get_or_init(make))
     }
 }
 

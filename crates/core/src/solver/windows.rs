@@ -79,9 +79,9 @@ impl Extent {
 
 #[cfg(test)]
 mod tests {
-    use fearless_simd::Level;
-
     use super::*;
+    use crate::numerics::InstructionSet;
+    use crate::numerics::instructions::vectorize;
 
     /// At every sample the extents are at least those of the samples from there on, and no more than those of
     /// the eights that these touch.
@@ -94,7 +94,7 @@ mod tests {
                 f64::from(x >> 8) - 8e6
             })
             .collect();
-        let windows = fearless_simd::dispatch!(Level::new(), simd => Windows::new(simd, &table));
+        let windows = vectorize!(InstructionSet::best(), simd => Windows::new(simd, &table));
         let largest = |from: usize, to: usize| {
             let of = &table[from..(to + 1).min(table.len())];
             let size = of.iter().fold(0.0, |most: f64, a| most.max(a.abs()));

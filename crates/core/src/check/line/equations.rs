@@ -8,8 +8,8 @@
 //!
 //! and contents add their mass to a floor that they stick to, or pull at it with `μ m N/M`.
 
+use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
-use fearless_simd::{dispatch, f64x8};
 
 use super::super::collocation::NODES;
 use super::super::lane::{Eight, all, both, inlined, larger, smaller};
@@ -18,6 +18,7 @@ use super::super::structure::StoreyDamping;
 use super::group::Group;
 use super::knots::LaneJudge;
 use super::work::Work;
+use crate::numerics::instructions::vectorize;
 use crate::response::output::FRICTION;
 
 /// Loads and springs at a part of a step.
@@ -230,7 +231,7 @@ impl LaneJudge<'_> {
 
     /// The outputs at the start (0) or the end (1) of a step, from the equations.
     pub(super) fn end(&self, (group, end): (&Group, usize), outputs: &Outputs, work: &mut Work) {
-        dispatch!(self.level, simd => self.end_of(simd, (group, end), outputs, work));
+        vectorize!(self.instructions, simd => self.end_of(simd, (group, end), outputs, work));
     }
 
     #[inline(always)]

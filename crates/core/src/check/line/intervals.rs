@@ -1,7 +1,5 @@
 //! All intervals: even ones by sweeps, the others and what may be near or a peak by their paths.
 
-use fearless_simd::dispatch;
-
 use super::super::collocation::{MAX_TURN, terms};
 use super::super::judge::{Judge, Run, STILL};
 use super::super::lane::LANES;
@@ -14,6 +12,7 @@ use super::sweep::{Even, EvenRun, Floors, Kind, MOST_STEPS};
 use super::watch::{Watch, Watched};
 use super::work::{Pass, Work};
 use crate::error::Stopped;
+use crate::numerics::instructions::vectorize;
 use crate::response::output::{FRICTION, Output, SLIDER};
 use crate::response::{Contact, Mode};
 use crate::slider::Direction;
@@ -34,8 +33,8 @@ impl<'a> Judge<'a, Line<'a>> {
         let floors = self.look_at_batches(&mut kinds);
         let mut pass = self.pass(&mut work, &mut worst);
         let to = (&mut pass, &mut others);
-        let level = bench.level;
-        dispatch!(level, simd => bench.sweep(simd, &even, &mut kinds, &floors, to))?;
+        let instructions = bench.instructions;
+        vectorize!(instructions, simd => bench.sweep(simd, &even, &mut kinds, &floors, to))?;
         others.sort_unstable();
         others.dedup();
         #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The knots by themselves: the balance of forces, energies, outputs.
 
+use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, f64x8};
 
 use super::super::collocation::Rule;
 use super::super::judge::Figures;
@@ -10,6 +10,7 @@ use super::super::law::Law;
 use super::super::outputs::Outputs;
 use super::super::structure::{StoreyDamping, Structure, larger as greatest};
 use crate::error::Stopped;
+use crate::numerics::InstructionSet;
 use crate::progress::Pulse;
 use crate::response::{History, Mode};
 
@@ -57,7 +58,7 @@ pub(super) struct LaneJudge<'a> {
     pub(super) instant_s: f64,
     /// Whether the normal force varies.
     pub(super) vertical: bool,
-    pub(super) level: Level,
+    pub(super) instructions: InstructionSet,
 }
 
 /// What else there is to know of knots.

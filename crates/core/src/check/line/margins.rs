@@ -1,7 +1,7 @@
 //! Decisions within an interval: margins of what sticks, speeds of what slides.
 
+use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
-use fearless_simd::{dispatch, f64x8};
 
 use super::super::collocation::{NODES, POINTS};
 use super::super::lane::{Eight, Places, all, both, smaller};
@@ -11,6 +11,7 @@ use super::knots::LaneJudge;
 use super::watch::Points;
 use super::work::{Pass, Work};
 use crate::error::Stopped;
+use crate::numerics::instructions::vectorize;
 use crate::response::output::FRICTION;
 
 impl LaneJudge<'_> {
@@ -82,7 +83,7 @@ impl LaneJudge<'_> {
         pass: &mut Pass<'_, '_>,
         out: &mut Vec<Points>,
     ) -> Result<(), Stopped> {
-        dispatch!(self.level, simd => self.points_of(simd, group, pass, out))
+        vectorize!(self.instructions, simd => self.points_of(simd, group, pass, out))
     }
 
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! The path of an interval, solved or mapped from its stored start, and its energies.
 
+use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
-use fearless_simd::{dispatch, f64x8};
 
 use super::super::collocation::{MOST_PASSES, NODES, ROUNDING};
 use super::super::ground::Ground;
@@ -12,6 +12,7 @@ use super::knots::{LaneJudge, lists_of, rates_of};
 use super::maps::{Maps, Spread};
 use super::work::{Pass, Spent, Work};
 use crate::error::Stopped;
+use crate::numerics::instructions::vectorize;
 
 impl LaneJudge<'_> {
     /// Judges a group by the maps of its step, or by solving the equations of each.
@@ -22,7 +23,7 @@ impl LaneJudge<'_> {
         pass: &mut Pass<'_, '_>,
     ) -> Result<(), Stopped> {
         let n = self.structure.masses_kg.len();
-        dispatch!(self.level, simd => self.group_of(simd, n, group, how, pass))
+        vectorize!(self.instructions, simd => self.group_of(simd, n, group, how, pass))
     }
 
     #[inline(always)]
@@ -74,7 +75,7 @@ impl LaneJudge<'_> {
         let n = self.structure.masses_kg.len();
         let places = Places::new(group.knots);
         group.follow_normal(self, ground);
-        dispatch!(self.level, simd => {
+        vectorize!(self.instructions, simd => {
             self.read(simd, n, &places, &mut work.input);
             self.load(simd, n, group, true, work);
             self.ask(simd, n, group, 0, work);
@@ -182,8 +183,8 @@ impl LaneJudge<'_> {
     pub(super) fn solve(&self, group: &Group, stored: Option<&Places>, work: &mut Work) {
         // One storey gets loops of its own.
         match self.structure.masses_kg.len() {
-            1 => dispatch!(self.level, simd => self.solve_of(simd, 1, group, stored, work)),
-            n => dispatch!(self.level, simd => self.solve_of(simd, n, group, stored, work)),
+            1 => vectorize!(self.instructions, simd => self.solve_of(simd, 1, group, stored, work)),
+            n => vectorize!(self.instructions, simd => self.solve_of(simd, n, group, stored, work)),
         }
     }
 

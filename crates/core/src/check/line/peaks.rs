@@ -1,7 +1,7 @@
 //! Peaks of the outputs between knots.
 
+use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
-use fearless_simd::{dispatch, f64x8};
 
 use super::super::collocation::{NODES, POINTS};
 use super::super::lane::{Eight, LANES, all, both, inlined, larger, smaller};
@@ -12,6 +12,7 @@ use super::group::Group;
 use super::knots::LaneJudge;
 use super::maps::{Maps, Spread};
 use super::work::{Pass, Work};
+use crate::numerics::instructions::vectorize;
 
 /// All lanes.
 const ALL: u64 = (1 << LANES) - 1;
@@ -101,7 +102,7 @@ impl LaneJudge<'_> {
 
     /// Outputs at the nodes of a step.
     pub(super) fn trace(&self, group: &Group, outputs: &Outputs, work: &mut Work) {
-        dispatch!(self.level, simd => self.trace_of(simd, group, outputs, work));
+        vectorize!(self.instructions, simd => self.trace_of(simd, group, outputs, work));
     }
 
     #[inline(always)]

@@ -101,7 +101,7 @@ impl Even {
         let deciding = (0..=bench.structure.contents.len()).map(|i| {
             let sticks = key.stuck >> i & 1 == 1;
             let output = match (i.checked_sub(1), sticks) {
-                (None, true) => Output::Friction,
+                (None, true) => Output::FrictionForce,
                 (None, false) => Output::Velocity,
                 (Some(e), false) => Output::ContentsVelocity(e),
                 (Some(e), true) => Output::ContentsAcceleration(e),

@@ -7,6 +7,8 @@ use super::systems::{
 };
 use crate::linear::MAX_RATE_STEP;
 use crate::linear::polynomial::value;
+use crate::numerics::InstructionSet;
+use crate::numerics::instructions::vectorize;
 
 /// (b) Under loads that are linear in time the norm of `ẍ` does not grow, and without dampers it
 /// stays; past a zero of the sliding velocity too, the friction force going on as it was.
@@ -274,7 +276,7 @@ fn prop_several_samples_stay_within_reach_of_one_chord() {
 }
 
 fn amplitudes(system: &System, x: &State, out: &mut [f64]) {
-    fearless_simd::dispatch!(fearless_simd::Level::new(), simd => system.amplitudes(simd, &x.0, out));
+    vectorize!(InstructionSet::best(), simd => system.amplitudes(simd, &x.0, out));
 }
 
 /// (k) In stick the amplitudes grow by what the acceleration adds, bound every row, and bound it no
@@ -327,7 +329,7 @@ fn departures<const N: usize>(
     let count = system.padded_modes();
     let mut all = vec![0.0; N * count];
     let reaches = lengths_s.map(|length_s| 0.125 * length_s * length_s);
-    fearless_simd::dispatch!(fearless_simd::Level::new(), simd => {
+    vectorize!(InstructionSet::best(), simd => {
         system.departures(simd, &x.0, load, kinks_and_impulse, reaches, &mut all);
     });
     core::array::from_fn(|i| all[i * count..][..system.modes()].to_vec())

@@ -4,6 +4,8 @@ use super::random::Random;
 use crate::linear::lanes::Many;
 use crate::linear::polynomial::{DEGREE, Polynomial, value};
 use crate::linear::{Load, StoreyDamping};
+use crate::numerics::InstructionSet;
+use crate::numerics::instructions::vectorize;
 
 pub use crate::linear::System;
 
@@ -139,7 +141,7 @@ pub fn series(system: &System, slip: bool, state: &State, load: &Load, length_s:
     let mut x = state.0.clone();
     let components = x.len();
     x.resize(components.div_ceil(4) * 4, 0.0);
-    fearless_simd::dispatch!(fearless_simd::Level::new(), simd => {
+    vectorize!(InstructionSet::best(), simd => {
         series.expand(simd, system, slip, &x, load, length_s);
     });
     let width = Many(system.modes());

@@ -6,6 +6,8 @@ use super::systems::{
 };
 use crate::linear::polynomial::{DEGREE, value};
 use crate::linear::{MAX_RATE_STEP, Solution, StoreyDamping, orders};
+use crate::numerics::InstructionSet;
+use crate::numerics::instructions::vectorize;
 
 /// (g) `‖A x‖ ≤ rate · ‖x‖` in stick and slip.
 #[test]
@@ -97,7 +99,7 @@ fn prop_parts_of_an_interval_agree_with_the_whole_series() {
             for _ in 0..10 {
                 let part = random.unit();
                 let (mut number, mut size) = (0.0, 0.0);
-                fearless_simd::dispatch!(fearless_simd::Level::new(), simd => {
+                vectorize!(InstructionSet::best(), simd => {
                     let of = (row.as_slice(), of_a, of_force);
                     let solution = Solution::new(simd, system, slip, (length_s, DEGREE), of);
                     let from = (start.as_slice(), &load);

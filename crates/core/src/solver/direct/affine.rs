@@ -17,12 +17,12 @@ use fearless_simd::prelude::*;
 
 use super::super::course::Course;
 use super::super::ground::Normal;
-use super::super::instructions::Job;
 use super::super::phase::Phase;
 use super::Direct;
 use super::body::Loads;
 use crate::linear::lanes::eight;
 use crate::linear::{BATCH, MAX_RATE_STEP, Row, Units, Window};
+use crate::numerics::instructions::vectorize;
 use crate::response::Mode;
 use crate::slider::Memory;
 
@@ -115,29 +115,22 @@ impl Matrices {
     }
 }
 
-/// Makes the rows of those components of the state that move, over a step of so many series.
-struct RowsOf<'a> {
-    matrices: &'a Matrices,
+/// The rows of some components of the state over a step of so many series.
+#[inline(always)]
+fn rows_of<S: Simd>(
+    simd: S,
+    Matrices { stride, a, b, g }: &Matrices,
     step: (f64, usize),
-    components: Vec<usize>,
-}
-
-impl Job for RowsOf<'_> {
-    type Output = Vec<(usize, Row)>;
-
-    #[inline(always)]
-    fn run<S: Simd>(self, simd: S) -> Self::Output {
-        let Self { matrices: Matrices { stride, a, b, g }, step, components } = self;
-        let units = Units::affine(a, b, g, step);
-        let mut rows = Vec::with_capacity(components.len());
-        let mut unit = vec![0.0; *stride];
-        for i in components {
-            unit[i] = 1.0;
-            rows.push((i, units.row(simd, &unit, 0.0, 0.0)));
-            unit[i] = 0.0;
-        }
-        rows
+    components: impl Iterator<Item = usize>,
+) -> Vec<(usize, Row)> {
+    let units = Units::affine(a, b, g, step);
+    let (mut rows, mut unit) = (Vec::new(), vec![0.0; *stride]);
+    for i in components {
+        unit[i] = 1.0;
+        rows.push((i, units.row(simd, &unit, 0.0, 0.0)));
+        unit[i] = 0.0;
     }
+    rows
 }
 
 /// What is not zero of a row.
@@ -187,9 +180,10 @@ impl<'a> Direct<'a> {
             return None;
         }
         let (matrices, outputs) = self.units(course, normal_n);
-        let components = (0..self.x.count()).filter(|&i| self.moves(i)).collect();
+        let components = (0..self.x.count()).filter(|&i| self.moves(i));
         let step = (dt_s, parts as usize);
-        let moving = self.instructions.run(RowsOf { matrices: &matrices, step, components });
+        let moving =
+            vectorize!(self.instructions, simd => rows_of(simd, &matrices, step, components));
         let second = |row: &Vec<f64>| {
             let (once, of_rate, _) = matrices.rate(row);
             let (twice, of_a, constant) = matrices.rate(&once);
@@ -344,11 +338,11 @@ impl<'a> Direct<'a> {
 #[cfg(test)]
 mod tests {
     use super::super::super::ground::{Ground, Sampling};
-    use super::super::super::instructions::InstructionSet;
     use super::super::start;
     use super::*;
     use crate::model::{Block, Contents, Damping, Frame, InitialState, Model, Slider};
     use crate::motion::GroundMotion;
+    use crate::numerics::InstructionSet;
     use crate::progress::{Pulse, UNWATCHED};
     use crate::slider::{Direction, Friction};
 

@@ -10,13 +10,13 @@ use fearless_simd::prelude::*;
 
 use super::super::chords::bound_between;
 use super::super::course::Course;
-use super::super::instructions::Job;
 use super::super::phase::{Phase, Straight};
 use super::super::walk::Walk;
 use super::Direct;
 use super::affine::{Affine, Configuration, Nine, Number};
 use crate::linear::lanes::{eight, larger, largest_lane};
 use crate::linear::{BATCH, Force, Window};
+use crate::numerics::instructions::vectorize;
 use crate::response::{Mode, output};
 use crate::slider::Contact;
 
@@ -62,30 +62,6 @@ struct Candidate {
     state: usize,
 }
 
-struct RunAhead<'r, 'a> {
-    walk: &'r mut Walk<'a, Direct<'a>>,
-    configuration: usize,
-    samples: [usize; 2],
-}
-
-impl Job for RunAhead<'_, '_> {
-    type Output = usize;
-
-    #[inline(always)]
-    fn run<S: Simd>(self, simd: S) -> usize {
-        let Self { walk, configuration, samples } = self;
-        let mut ahead = core::mem::take(&mut walk.phase.ahead);
-        let configurations = core::mem::take(&mut ahead.configurations);
-        let mut reached = samples[0];
-        if let Some(affine) = &configurations[configuration].affine {
-            reached = batches(walk, simd, &mut ahead, (affine, configuration), samples);
-        }
-        ahead.configurations = configurations;
-        walk.phase.ahead = ahead;
-        reached
-    }
-}
-
 /// The first sample between two that is left open.
 pub(super) fn run_ahead<'a>(walk: &mut Walk<'a, Direct<'a>>, [sample, end]: [usize; 2]) -> usize {
     if sample + BATCH > end || !may_run_ahead(walk) {
@@ -93,10 +69,30 @@ pub(super) fn run_ahead<'a>(walk: &mut Walk<'a, Direct<'a>>, [sample, end]: [usi
     }
     let Some(configuration) = walk.phase.configuration(&walk.course) else { return sample };
     let instructions = walk.phase.instructions;
-    let reached = instructions.run(RunAhead { walk, configuration, samples: [sample, end] });
+    let reached =
+        vectorize!(instructions, simd => in_mode(walk, simd, configuration, [sample, end]));
     if walk.phase.ahead.candidates.len() > CANDIDATES {
         walk.phase.settle_candidates(&mut walk.course);
     }
+    reached
+}
+
+/// The same in one configuration.
+#[inline(always)]
+fn in_mode<'a, S: Simd>(
+    walk: &mut Walk<'a, Direct<'a>>,
+    simd: S,
+    configuration: usize,
+    samples: [usize; 2],
+) -> usize {
+    let mut ahead = core::mem::take(&mut walk.phase.ahead);
+    let configurations = core::mem::take(&mut ahead.configurations);
+    let mut reached = samples[0];
+    if let Some(affine) = &configurations[configuration].affine {
+        reached = batches(walk, simd, &mut ahead, (affine, configuration), samples);
+    }
+    ahead.configurations = configurations;
+    walk.phase.ahead = ahead;
     reached
 }
 

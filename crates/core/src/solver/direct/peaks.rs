@@ -132,15 +132,15 @@ impl<'e> Quantities for InSeries<'e> {
         Part::Less(&self.series.u, 0.0)
     }
 
-    fn slider(&self) -> Part<'e> {
+    fn slider_n(&self) -> Part<'e> {
         Part::Less(&self.series.slider, 0.0)
     }
 
-    fn friction(&self) -> Part<'e> {
+    fn friction_n(&self) -> Part<'e> {
         Part::Less(&self.series.friction, 0.0)
     }
 
-    fn base_shear(&self) -> Part<'e> {
+    fn base_shear_n(&self) -> Part<'e> {
         Part::Less(&self.series.shear, 0.0)
     }
 
@@ -207,7 +207,7 @@ impl<'a> Direct<'a> {
     pub(super) fn look_at_outputs(&mut self, course: &mut Course<'_>, part: f64) {
         for j in 0..self.peaks.outputs.len() {
             match self.peaks.outputs[j] {
-                Output::Friction => self.look_at_friction(course, part),
+                Output::FrictionForce => self.look_at_friction(course, part),
                 Output::Overturning if self.peaks.arms.is_none() => {}
                 output => {
                     let Peaks { values, arms, slope_m_per_s2, .. } = &mut self.peaks;

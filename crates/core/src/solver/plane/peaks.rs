@@ -399,8 +399,8 @@ impl Peaks {
         let by_axis = system.kinetic_per_kg.is_constant()
             && matches!(series.kind, Kind::Slip | Kind::Start | Kind::Turning);
         let part = SeriesPart { series, to, near: near.as_ref(), chords: &chords };
-        self.look_at_composed(Output::Friction, &friction, &part, by_axis);
-        self.look_at_composed(Output::Slider, &slider, &part, false);
+        self.look_at_composed(Output::FrictionForce, &friction, &part, by_axis);
+        self.look_at_composed(Output::SliderForce, &slider, &part, false);
         if let Some(mass) = &system.mass {
             // b = C (P − φ)
             let force = |axis: usize, k: usize| series.pull[axis][k] - series.friction[axis][k];
@@ -491,8 +491,8 @@ impl Peaks {
         }
         let block = (Output::Block, pulls, arc.friction);
         let of = [
-            (Output::Friction, [[0.0; 2]; 2], kg * arc.friction),
-            (Output::Slider, slider, kg * arc.friction),
+            (Output::FrictionForce, [[0.0; 2]; 2], kg * arc.friction),
+            (Output::SliderForce, slider, kg * arc.friction),
         ];
         for (axis, moment) in system.overturning.iter().enumerate() {
             let Some((arm, along)) = moment.as_ref().filter(|_| system.mass.is_none()) else {

@@ -1,11 +1,10 @@
 //! The motion by powers of the time: in stick, in slip, and in slip from rest.
 
-use fearless_simd::Simd;
-
 use super::system::{Loads, State, System, inner, norm};
 use super::terms::{LOW, NEGLIGIBLE, Scales, Sizes};
 use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, deflated, first_root, value};
-use crate::solver::instructions::{InstructionSet, Job};
+use crate::numerics::InstructionSet;
+use crate::numerics::instructions::vectorize;
 
 /// By what a motion is expanded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -174,8 +173,7 @@ impl Series {
         over: (Loads, f64),
         scales: &Scales,
     ) {
-        let instructions = self.instructions;
-        instructions.run(Expand { series: self, system, of, over, scales });
+        vectorize!(self.instructions, _simd => self.expand_here(system, of, over, scales));
     }
 
     #[inline(always)]
@@ -433,25 +431,6 @@ impl Series {
             return [(a - b) * (a + b), 2.0 * a * b];
         }
         [value(&self.w[0], x), value(&self.w[1], x)]
-    }
-}
-
-/// An expansion, by the vector instructions of the machine.
-struct Expand<'a> {
-    series: &'a mut Series,
-    system: &'a System,
-    of: (Kind, &'a State),
-    over: (Loads, f64),
-    scales: &'a Scales,
-}
-
-impl Job for Expand<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S: Simd>(self, _: S) {
-        let Self { series, system, of, over, scales } = self;
-        series.expand_here(system, of, over, scales);
     }
 }
 

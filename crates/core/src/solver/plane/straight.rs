@@ -6,6 +6,7 @@ use super::{Plane, SLIP};
 use crate::error::SolveError;
 use crate::model::Model;
 use crate::motion::GroundMotion;
+use crate::numerics::InstructionSet;
 use crate::progress::Pulse;
 use crate::response::{
     Demands, EventInPlane, History, HistoryAlongY, InPlane, Method, PointFactorsInPlane, Response,
@@ -13,7 +14,6 @@ use crate::response::{
 };
 use crate::solver::course::Course;
 use crate::solver::ground::{Ground, contact_loss_s};
-use crate::solver::instructions::InstructionSet;
 use crate::solver::slider::SliderState;
 use crate::solver::summary;
 use crate::solver::walk::Walk;

@@ -1,21 +1,11 @@
 //! Vector instructions, chosen when the program runs.
 
 use fearless_simd::Level;
-use fearless_simd::prelude::*;
 
 /// Vector instructions of the processor, as found when the program runs: AVX2, or those that every
 /// processor of its kind has.
 #[derive(Clone, Copy, Debug)]
 pub struct InstructionSet(Level);
-
-/// Work that an instruction set does.
-pub(super) trait Job {
-    /// What comes of it.
-    type Output;
-
-    /// Does it.
-    fn run<S: Simd>(self, simd: S) -> Self::Output;
-}
 
 impl InstructionSet {
     /// The best of this machine.
@@ -39,34 +29,42 @@ impl InstructionSet {
         all.into_iter().collect()
     }
 
-    #[inline(always)]
-    pub(super) fn run<J: Job>(self, job: J) -> J::Output {
+    pub(crate) fn level(self) -> Level {
+        self.0
+    }
+}
+
+/// Work by the instructions of a set, all that is inlined into it included: `vectorize!(set, simd => work)`.
+macro_rules! vectorize {
+    ($set:expr, $simd:ident => $work:expr) => {{
+        let level = $crate::numerics::InstructionSet::level($set);
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
         {
-            #[cfg(feature = "scalar")]
-            if let Level::Fallback(simd) = self.0 {
-                return job.run(simd);
-            }
-            if let Level::Avx2(simd) = self.0 {
-                return simd.vectorize(
+            match level {
+                #[cfg(feature = "scalar")]
+                fearless_simd::Level::Fallback($simd) => $work,
+                fearless_simd::Level::Avx2($simd) => fearless_simd::Simd::vectorize(
+                    $simd,
                     #[inline(always)]
-                    || job.run(simd),
-                );
+                    || $work,
+                ),
+                level => match level.as_sse2() {
+                    Some($simd) => fearless_simd::Simd::vectorize(
+                        $simd,
+                        #[inline(always)]
+                        || $work,
+                    ),
+                    None => unreachable!("every processor that this is built for has SSE2"),
+                },
             }
-            if let Some(simd) = self.0.as_sse2() {
-                return simd.vectorize(
-                    #[inline(always)]
-                    || job.run(simd),
-                );
-            }
-            unreachable!("every processor that this is built for has SSE2")
         }
         #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
         {
-            fearless_simd::dispatch!(self.0, simd => job.run(simd))
+            fearless_simd::dispatch!(level, $simd => $work)
         }
-    }
+    }};
 }
+pub(crate) use vectorize;
 
 /// What every processor of this kind has.
 fn portable(level: Level) -> Level {
