@@ -1,6 +1,7 @@
 //! The mock-ups and records of the paper, and models and motions made from them.
 
 use crate::PaperError;
+use crate::claims::{self, Facts};
 use slipstick::error::{ModelError, MotionError};
 use slipstick::input::{self, MotionSource, Scale};
 use slipstick::model::{Block, Frame, InitialState, Model, Slider};
@@ -37,11 +38,12 @@ pub struct Experiment {
     pub tail_s: f64,
 }
 
-/// All mock-ups and records.
+/// All mock-ups and records, and what the paper claims.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Library {
     experiments: Vec<Experiment>,
     records: Vec<(String, GroundMotion)>,
+    claims: Vec<Facts>,
 }
 
 impl Library {
@@ -83,7 +85,7 @@ impl Library {
             let id = (*id).to_owned();
             experiments.push(Experiment { id, name, model: analysis.model, shake, tail_s });
         }
-        Ok(Self { experiments, records: motions })
+        Ok(Self { experiments, records: motions, claims: claims::facts()? })
     }
 
     /// All experiments, in the order given.
@@ -114,6 +116,21 @@ impl Library {
     pub(crate) fn record(&self, name: &str) -> Result<&GroundMotion, PaperError> {
         let found = self.records.iter().find(|(n, _)| n == name);
         found.map(|(_, motion)| motion).ok_or_else(|| missing(name))
+    }
+
+    /// The fixed facts of all claims.
+    pub(crate) fn claims(&self) -> &[Facts] {
+        &self.claims
+    }
+
+    /// The facts of one claim.
+    pub(crate) fn claim(&self, id: &str) -> Result<&Facts, PaperError> {
+        self.claims.iter().find(|facts| facts.id == id).ok_or_else(|| missing(id))
+    }
+
+    /// The number that the paper prints for a claim.
+    pub(crate) fn printed(&self, id: &str) -> Result<f64, PaperError> {
+        self.claim(id)?.paper.ok_or_else(|| missing(id))
     }
 
     /// The mock-ups with an oscillator (section 6), as their sine experiments.
