@@ -3,15 +3,12 @@
 use crate::PaperError;
 use crate::claims::Finding;
 use crate::curves::range;
-use crate::library::{Experiment, Library, Shake, with_frequency};
+use crate::library::{Experiment, Library, Shake, storey_peak};
 use slipstick::check::check;
 use slipstick::motion::Sine;
 use slipstick::response::{Demands, EventKind, Iterations, Response};
 use slipstick::solver;
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
-
-/// Frequency of the oscillator of figure 11, in Hz, which section 6 rounds to 2.65.
-pub(crate) const FIGURE_11_HZ: f64 = 2.687;
 
 /// One experiment by both solvers.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,11 +65,7 @@ pub(crate) fn run(
         (11, "section6-201kg-2_65hz-sine", [0.0, 8.0]),
         (12, "section6-201kg-1_125hz-taft", [0.0, 30.0]),
     ] {
-        let mut experiment = library.experiment(id)?.clone();
-        if figure == 11 {
-            experiment.model = with_frequency(&experiment.model, FIGURE_11_HZ)?;
-            experiment.name = experiment.name.replace("2.65 Hz", "2.687 Hz");
-        }
+        let experiment = library.drawn(id)?;
         let motion = experiment.motion()?;
         drawn.push(DrawnTest {
             figure,
@@ -143,7 +136,7 @@ fn histories(library: &Library, findings: &mut Vec<Finding>) -> Result<(), Paper
         };
         let all = scanned(library.experiments().iter().filter(of_figure))?;
         let of = |value: &dyn Fn(&Demands) -> f64| range(all.iter().map(value));
-        let storey = of(&|d| d.storeys.first().map_or(0.0, |s| s.peak_acceleration_m_per_s2));
+        let storey = of(&storey_peak);
         let mut finding = Finding::unchecked(figure)
             .quoting("block", of(&|d| d.peak_block_acceleration_m_per_s2))
             .quoting("sliding", of(&|d| 1e3 * d.peak_sliding_displacement_m))

@@ -96,40 +96,23 @@ fn number(value: f64, format: &str) -> Option<String> {
     })
 }
 
-impl From<&str> for Value {
-    fn from(text: &str) -> Self {
-        Self::Text(text.to_owned())
-    }
+macro_rules! from {
+    ($($type:ty: $value:ident => $made:expr;)*) => {
+        $(impl From<$type> for Value {
+            fn from($value: $type) -> Self {
+                $made
+            }
+        })*
+    };
 }
 
-impl From<String> for Value {
-    fn from(text: String) -> Self {
-        Self::Text(text)
-    }
-}
-
-impl From<f64> for Value {
-    fn from(value: f64) -> Self {
-        Self::Number(value)
-    }
-}
-
-impl From<usize> for Value {
-    fn from(count: usize) -> Self {
-        Self::Text(count.to_string())
-    }
-}
-
-impl From<[f64; 2]> for Value {
-    fn from(ends: [f64; 2]) -> Self {
-        Self::Range(ends)
-    }
-}
-
-impl From<Vec<Values>> for Value {
-    fn from(times: Vec<Values>) -> Self {
-        Self::Each(times)
-    }
+from! {
+    &str: text => Self::Text(text.to_owned());
+    String: text => Self::Text(text);
+    usize: count => Self::Text(count.to_string());
+    f64: number => Self::Number(number);
+    [f64; 2]: ends => Self::Range(ends);
+    Vec<Values>: times => Self::Each(times);
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use crate::claims::Finding;
 use crate::curves::range;
-use crate::library::{Experiment, Library, Shake, with_friction};
+use crate::library::{Experiment, Library, Shake, storey_peak, with_friction};
 use crate::offset::studied;
 use crate::sensitivity::{Compared, compared};
 use crate::{Grid, PaperError};
@@ -94,16 +94,13 @@ fn lowered(experiment: &Experiment, factors: [f64; 2]) -> Result<LighterFriction
         [factors[0] * model.static_friction()[0], factors[1] * model.kinetic_friction()[0]];
     let before = experiment.demands()?;
     let after = experiment.with_model(with_friction(model, mu_s, mu_k)?).demands()?;
-    let storey = |d: &Demands, of: fn(&slipstick::response::StoreyDemands) -> f64| {
-        d.storeys.first().map_or(0.0, of)
-    };
     let percent = |of: &dyn Fn(&Demands) -> f64| 100.0 * (of(&after) / of(&before) - 1.0);
     Ok(LighterFriction {
         name: experiment.name.clone(),
         factors,
         changes_percent: [
-            percent(&|d| storey(d, |s| s.peak_acceleration_m_per_s2)),
-            percent(&|d| storey(d, |s| s.peak_displacement_m)),
+            percent(&storey_peak),
+            percent(&|d| d.storeys.first().map_or(0.0, |s| s.peak_displacement_m)),
             percent(&|d| d.peak_sliding_displacement_m),
         ],
         residual_mm: 1e3

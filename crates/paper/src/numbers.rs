@@ -6,8 +6,7 @@ use core::f64::consts::{PI, TAU};
 use crate::PaperError;
 use crate::claims::Finding;
 use crate::curves::crossing;
-use crate::experiments::FIGURE_11_HZ;
-use crate::library::{Library, damping_ratio, storey, with_block_mass};
+use crate::library::{FIGURE_11_HZ, Library, damping_ratio, storey, with_block_mass};
 
 /// Density of steel in kg/m³.
 const STEEL_KG_PER_M3: f64 = 7850.0;

@@ -2,9 +2,8 @@
 
 use crate::claims::Finding;
 use crate::curves::{crossing, linspace, range};
-use crate::experiments::FIGURE_11_HZ;
 use crate::fill;
-use crate::library::{Experiment, Library, Shake, with_asymmetry, with_frequency, with_tilt};
+use crate::library::{Experiment, Library, Shake, with_asymmetry, with_tilt};
 use crate::{Grid, PaperError};
 use slipstick::model::Model;
 use slipstick::motion::{GroundMotion, Sine};
@@ -86,12 +85,7 @@ pub(crate) fn studied(library: &Library) -> Result<Vec<Experiment>, PaperError> 
         "section6-201kg-2_65hz-sine",
         "section6-201kg-1_125hz-taft",
     ] {
-        let mut experiment = library.experiment(id)?.clone();
-        if id.contains("2_65hz") {
-            experiment.model = with_frequency(&experiment.model, FIGURE_11_HZ)?;
-            experiment.name = experiment.name.replace("2.65 Hz", "2.687 Hz");
-        }
-        all.push(experiment);
+        all.push(library.drawn(id)?);
     }
     Ok(all)
 }

@@ -2,8 +2,7 @@
 
 use crate::claims::Finding;
 use crate::curves::{at_amplitudes, highest, intervals, linspace};
-use crate::experiments::FIGURE_11_HZ;
-use crate::library::{Experiment, Library, Shake, with_frequency};
+use crate::library::{Experiment, Library, Shake, storey_peak};
 use crate::storey::AMPLITUDES;
 use crate::{Grid, PaperError};
 use slipstick::motion::Sine;
@@ -41,11 +40,7 @@ pub(crate) fn run(
         (10, "section6-201kg-1_125hz-sine"),
         (11, "section6-201kg-2_65hz-sine"),
     ] {
-        let mut experiment = library.experiment(id)?.clone();
-        if figure == 11 {
-            experiment.model = with_frequency(&experiment.model, FIGURE_11_HZ)?;
-        }
-        let test = scan(figure, &experiment, &amplitudes)?;
+        let test = scan(figure, &library.drawn(id)?, &amplitudes)?;
         findings.push(found(&test, "block", &test.block));
         findings.push(found(&test, "storey", &test.storey));
         all.push(test);
@@ -71,8 +66,7 @@ fn scan(
         let demands = Experiment { shake, tail_s: 0.0, ..experiment.clone() }.demands()?;
         let over = |value: f64| [amplitude_m_per_s2, value / amplitude_m_per_s2];
         test.block.push(over(demands.peak_block_acceleration_m_per_s2));
-        let storey = demands.storeys.first().map_or(0.0, |s| s.peak_acceleration_m_per_s2);
-        test.storey.push(over(storey));
+        test.storey.push(over(storey_peak(&demands)));
         test.sliding.push([amplitude_m_per_s2, demands.sliding_time_s / sine.duration_s]);
     }
     Ok(test)

@@ -2,7 +2,7 @@
 
 use crate::claims::Finding;
 use crate::curves::range;
-use crate::library::{Experiment, Library, with_asymmetry, with_friction, with_tilt};
+use crate::library::{Experiment, Library, storey_peak, with_asymmetry, with_friction, with_tilt};
 use crate::offset::{disturbed, spring_kn_per_m, studied};
 use crate::{Grid, PaperError};
 use slipstick::response::Demands;
@@ -47,7 +47,7 @@ impl SensitivityRow {
 pub(crate) fn compared(d: &Demands) -> Compared {
     [
         d.peak_block_acceleration_m_per_s2,
-        d.storeys.first().map_or(0.0, |s| s.peak_acceleration_m_per_s2),
+        storey_peak(d),
         1e3 * d.peak_sliding_displacement_m,
         1e3 * d.residual_sliding_displacement_m,
     ]

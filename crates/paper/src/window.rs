@@ -2,7 +2,9 @@
 
 use crate::claims::Finding;
 use crate::curves::{highest, interval_text, intervals, linspace, logspace, range};
-use crate::library::{Experiment, Library, damping_ratio, fixed, free_free_hz, storey};
+use crate::library::{
+    Experiment, Library, damping_ratio, fixed, free_free_hz, storey, storey_peak,
+};
 use crate::numbers::amplification;
 use crate::steady::{SAMPLES, steady};
 use crate::{Grid, PaperError, WINDOWS, piece};
@@ -153,6 +155,19 @@ fn frequencies(free_free_hz: f64, amplitude: f64, friction: f64, grid: Grid) -> 
     all
 }
 
+/// The table of a test from rest.
+fn sine(frequency_hz: f64, amplitude_m_per_s2: f64) -> Sine {
+    Sine {
+        frequency_hz,
+        amplitude_m_per_s2,
+        duration_s: FROM_REST_S,
+        dt_s: 1.0 / (SAMPLES as f64 * frequency_hz),
+        phase_rad: 0.0,
+        ramp_s: 0.0,
+        decay_s: 0.0,
+    }
+}
+
 fn window(experiment: &Experiment, amplitude: f64, grid: Grid) -> Result<Window, PaperError> {
     let model = &experiment.model;
     let (mass_kg, frequency_hz) = storey(model);
@@ -160,24 +175,13 @@ fn window(experiment: &Experiment, amplitude: f64, grid: Grid) -> Result<Window,
     let friction = model.kinetic_friction()[0] * model.gravity_m_per_s2();
     let held = fixed(model)?;
     let damping = damping_ratio(model);
-    let peak = |demands: &slipstick::response::Demands| {
-        demands.storeys.first().map_or(0.0, |s| s.peak_acceleration_m_per_s2)
-    };
     let mut points = Vec::new();
     for table_hz in frequencies(free_free_hz, amplitude, friction, grid) {
-        let sine = Sine {
-            frequency_hz: table_hz,
-            amplitude_m_per_s2: amplitude,
-            duration_s: FROM_REST_S,
-            dt_s: 1.0 / (SAMPLES as f64 * table_hz),
-            phase_rad: 0.0,
-            ramp_s: 0.0,
-            decay_s: 0.0,
-        };
+        let sine = sine(table_hz, amplitude);
         let motion = sine.motion()?;
         let demands = solver::exact_demands(model, &motion)?.demands;
-        let from_rest = peak(&demands);
-        let from_rest_held = peak(&solver::exact_demands(&held, &motion)?.demands);
+        let from_rest = storey_peak(&demands);
+        let from_rest_held = storey_peak(&solver::exact_demands(&held, &motion)?.demands);
         let settled = steady(model, &sine)?;
         let over_table = settled.peak_m_per_s2() / amplitude;
         points.push(Point {
@@ -296,18 +300,6 @@ mod tests {
         let block = Block { mass_kg: 325.0, width_m: None, height_m: None };
         let model = Model::new(block, slider, frame, 9.81, InitialState::rest()).unwrap();
         with_frequency(&model, frequency_hz).unwrap()
-    }
-
-    fn sine(frequency_hz: f64, amplitude: f64) -> Sine {
-        Sine {
-            frequency_hz,
-            amplitude_m_per_s2: amplitude,
-            duration_s: FROM_REST_S,
-            dt_s: 1.0 / (SAMPLES as f64 * frequency_hz),
-            phase_rad: 0.0,
-            ramp_s: 0.0,
-            decay_s: 0.0,
-        }
     }
 
     /// Steady peaks at the frequencies of the reference's peaks, to 1.5 %: it prints the frequency to

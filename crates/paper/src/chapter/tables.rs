@@ -1,6 +1,7 @@
 //! What stands in the places of the chapter's placeholders, figures and lists of claims apart.
 
 use crate::fill::{self, Values};
+use crate::library::storey_peak;
 use crate::suite::SUITE_PEAK_M_PER_S2;
 use crate::{Grid, NOISE_M_PER_S2, OffsetRow, Paper, Ratio, SCANNED_HZ, SuiteRow, TESTED_HZ};
 use crate::{Verdict, Window};
@@ -94,9 +95,7 @@ fn tests(paper: &Paper) -> String {
             let added = other.map_or("–".to_owned(), |d| signed(of(d) - base, decimals));
             format!("{} {added}", fixed(base, decimals))
         };
-        let storey = exact.storeys.first().map_or_else(String::new, |_| {
-            pair(&|d| d.storeys.first().map_or(0.0, |s| s.peak_acceleration_m_per_s2), 3)
-        });
+        let storey = exact.storeys.first().map_or_else(String::new, |_| pair(&storey_peak, 3));
         let iterations = match &test.stepwise {
             Ok((_, iterations)) => format!("{}, {}", fixed(iterations.mean, 2), iterations.max),
             Err(_) => "fails".to_owned(),
