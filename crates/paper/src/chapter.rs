@@ -31,7 +31,7 @@ pub struct Chapter {
 /// # Errors
 /// [`PaperError::Text`] for a template that does not fit the paper, which tests rule out.
 pub fn chapter(paper: &Paper) -> Result<Chapter, PaperError> {
-    let histories: Vec<Figure> = paper.drawn.iter().map(histories::figure).collect();
+    let histories: Vec<Figure> = paper.drawn.iter().map(histories::drawn).collect();
     let windows = graphs::windows(paper);
     let single = graphs::single(paper);
     let mut values = tables::values(paper, &histories, &windows);

@@ -25,12 +25,24 @@ fn limit(value: f64) -> Limit {
     Limit { value, label: String::new(), style: Style::LIMIT }
 }
 
-fn values(series: &[Series]) -> impl Iterator<Item = f64> {
+pub fn values(series: &[Series]) -> impl Iterator<Item = f64> {
     series.iter().flat_map(|s| s.points.iter().map(|p| p[1]))
 }
 
-fn panel(x: Axis, y: Axis, height: f64, series: Vec<Series>, limits: Vec<Limit>) -> Panel {
+pub fn panel(x: Axis, y: Axis, height: f64, series: Vec<Series>, limits: Vec<Limit>) -> Panel {
     Panel { x, y, height, series, limits, peak: None, note: String::new() }
+}
+
+pub fn figure(
+    id: &'static str,
+    layout: Layout,
+    title: impl Into<String>,
+    description: impl Into<String>,
+    panels: impl IntoIterator<Item = Panel>,
+) -> Figure {
+    let (title, description) = (title.into(), description.into());
+    let panels = panels.into_iter().collect();
+    Figure { id, title, description, layout, panels, shaded: Vec::new() }
 }
 
 /// Storey displacement against amplitude, figures 9d and 10d.
@@ -47,16 +59,14 @@ fn displacements(curves: &[DisplacementCurve]) -> Figure {
         let x = Axis::logarithmic("Amplitude of the table (m/s²)", 0.1, 5.0);
         panel(x, y, 170.0, series, vec![limit(curve.paper_mm)])
     });
-    Figure {
-        id: "paper-storey-displacement",
-        title: "Peak storey displacement against the amplitude of the table".to_owned(),
-        description: "Peaks of 20 s from rest for a sine that starts at phase 0 and for one that \
-                      starts at its peak, beside the printed value."
-            .to_owned(),
-        layout: Layout::Beside,
-        panels: panels.collect(),
-        shaded: Vec::new(),
-    }
+    figure(
+        "paper-storey-displacement",
+        Layout::Beside,
+        "Peak storey displacement against the amplitude of the table",
+        "Peaks of 20 s from rest for a sine that starts at phase 0 and for one that \
+         starts at its peak, beside the printed value.",
+        panels,
+    )
 }
 
 /// Accelerations over that of the table, figures 9 to 11.
@@ -69,16 +79,13 @@ fn free_sliding(tests: &[FreeSliding]) -> Figure {
         let x = Axis::logarithmic("Table (m/s²)", 0.1, 5.0);
         panel(x, y, 150.0, series, vec![limit(1.0)])
     });
-    Figure {
-        id: "paper-no-amplification",
-        title: "Peak acceleration over that of the table against its amplitude".to_owned(),
-        description:
-            "Block and storey in 20 s from rest, for the mock-ups of figures 9, 10 and 11."
-                .to_owned(),
-        layout: Layout::Beside,
-        panels: panels.collect(),
-        shaded: Vec::new(),
-    }
+    figure(
+        "paper-no-amplification",
+        Layout::Beside,
+        "Peak acceleration over that of the table against its amplitude",
+        "Block and storey in 20 s from rest, for the mock-ups of figures 9, 10 and 11.",
+        panels,
+    )
 }
 
 /// Amplitudes drawn for a window, in m/s².
@@ -140,20 +147,18 @@ fn window(id: &'static str, of_mock_up: &[Window]) -> Figure {
         let x = Axis::logarithmic("Frequency of the table (Hz)", from_hz, to_hz);
         panel(x, Axis::logarithmic(label, low, high), 112.0, series, vec![limit(1.0)])
     });
-    Figure {
+    figure(
         id,
-        title: format!(
+        Layout::Stacked,
+        format!(
             "Amplification against frequency, {} kg at {} Hz",
             compact(first.mass_kg),
             compact((first.frequency_hz * 1e4).round() / 1e4)
         ),
-        description: "Peak storey acceleration over that of the table and over that of the same \
-                      storey on a fixed block, from rest and steady, for three amplitudes."
-            .to_owned(),
-        layout: Layout::Stacked,
-        panels: panels.collect(),
-        shaded: Vec::new(),
-    }
+        "Peak storey acceleration over that of the table and over that of the same \
+         storey on a fixed block, from rest and steady, for three amplitudes.",
+        panels,
+    )
 }
 
 /// Mid-line against the phase at which the sine starts.
@@ -169,17 +174,14 @@ fn start_phase(phases: &[StartPhase]) -> Figure {
         values(&series).chain([0.0]).collect::<Vec<_>>(),
     );
     let x = Axis::linear("Phase at which the sine starts (degrees)", 0.0, 180.0);
-    Figure {
-        id: "paper-start-phase",
-        title: "Offset against the phase at which the table starts".to_owned(),
-        description:
-            "Mid-line of the sliding displacement in the 15th cycle of 1.5 Hz, 3 m/s², on a \
-                      level table with equal friction both ways."
-                .to_owned(),
-        layout: Layout::Stacked,
-        panels: vec![panel(x, y, 130.0, series, Vec::new())],
-        shaded: Vec::new(),
-    }
+    figure(
+        "paper-start-phase",
+        Layout::Stacked,
+        "Offset against the phase at which the table starts",
+        "Mid-line of the sliding displacement in the 15th cycle of 1.5 Hz, 3 m/s², on a \
+         level table with equal friction both ways.",
+        [panel(x, y, 130.0, series, Vec::new())],
+    )
 }
 
 /// Rows of the suite, record by record.
@@ -219,17 +221,16 @@ fn suite(paper: &Paper) -> Figure {
     let [low, high] = [0.1, 1.5 * values(&series).fold(1.0, f64::max)];
     let y = Axis::logarithmic("Peak sliding displacement (mm)", low, high);
     let x = Axis::linear("Friction over PGA in g", 0.0, 1.0);
-    Figure {
-        id: "paper-suite",
-        title: "Peak sliding displacement against friction".to_owned(),
-        description: "Rigid block without a spring, records scaled to one peak.".to_owned(),
-        layout: Layout::Stacked,
-        panels: vec![panel(x, y, 190.0, series, Vec::new())],
-        shaded: Vec::new(),
-    }
+    figure(
+        "paper-suite",
+        Layout::Stacked,
+        "Peak sliding displacement against friction",
+        "Rigid block without a spring, records scaled to one peak.",
+        [panel(x, y, 190.0, series, Vec::new())],
+    )
 }
 
-/// Spectra of sliding structures, a panel a mass ratio; `column` 1 is acceleration, 2 sliding.
+/// Spectra of sliding structures, of accelerations or of sliding, a panel a mass ratio.
 fn spectra(paper: &Paper, sliding: bool) -> Figure {
     let mut ratios: Vec<f64> = paper.spectra.iter().map(|s| s.mass_ratio).collect();
     ratios.dedup();
@@ -261,12 +262,11 @@ fn spectra(paper: &Paper, sliding: bool) -> Figure {
     } else {
         ("paper-spectrum-acceleration", "Peak storey acceleration")
     };
-    Figure {
+    figure(
         id,
-        title: format!("{what} of sliding structures, El Centro 1940"),
-        description: format!("{what} against fixed-base period, 5 % damping, four frictions."),
-        layout: Layout::Stacked,
-        panels: panels.collect(),
-        shaded: Vec::new(),
-    }
+        Layout::Stacked,
+        format!("{what} of sliding structures, El Centro 1940"),
+        format!("{what} against fixed-base period, 5 % damping, four frictions."),
+        panels,
+    )
 }
