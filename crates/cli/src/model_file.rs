@@ -4,9 +4,8 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use slipstick::error::InputError;
-use slipstick::hash::sha256_hex;
 use slipstick::input::{self, Analysis, Override};
-use slipstick_files::{FileError, modes_beside, read_at_most};
+use slipstick_files::{FileError, InputFiles, modes_beside, read_at_most};
 
 use crate::failure::{Failure, say};
 
@@ -50,9 +49,9 @@ impl ModelFile {
         given.map(str::to_owned).or(stem).unwrap_or_else(|| "model".to_owned())
     }
 
-    /// Its path, its hash, what it is.
-    pub fn source(&self) -> (String, String, String) {
-        (self.name.clone(), sha256_hex(&self.bytes), "model".to_owned())
+    /// What a result on it is made from.
+    pub fn inputs(&self) -> InputFiles {
+        InputFiles::model(&self.name, &self.bytes)
     }
 
     /// All of it as text.

@@ -1,6 +1,6 @@
 //! A model and the records that it runs on, read.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use slipstick::assessment::AssessmentError;
 use slipstick::assessment::suite::Suite;
@@ -9,14 +9,15 @@ use slipstick::requests::On;
 use slipstick::response::Method;
 use slipstick::study::engine::Engine;
 use slipstick_files::{
-    LoadedMotion, OpenJob, OpenSuite, OutputFolder, SuiteError, SuiteRequest, on_threads,
+    InputFiles, LoadedMotion, OpenJob, OpenSuite, OutputFolder, SuiteError, SuiteRequest,
+    on_threads,
 };
 
 use crate::args::{ResultArgs, SuiteArgs};
 use crate::failure::Failure;
 use crate::model_file::{ModelFile, read_model, tell_replaced};
 use crate::progress::counted;
-use crate::results::{Source, folder};
+use crate::results::folder;
 
 /// A model and its suite, read.
 pub struct Opened {
@@ -26,7 +27,7 @@ pub struct Opened {
     pub analysis: Analysis,
     overrides: Vec<Override>,
     pub suite: Suite,
-    sources: Vec<Source>,
+    sources: Vec<(String, String, String)>,
 }
 
 impl Opened {
@@ -99,21 +100,16 @@ impl Opened {
         counted("computing", args.result.quiet, work).map_err(|error| self.failure(error))
     }
 
-    /// Files that went in, model first.
-    pub fn sources(&self) -> Vec<Source> {
-        std::iter::once(self.file.source()).chain(self.sources.iter().cloned()).collect()
+    /// What went in, the model first.
+    pub fn inputs(&self) -> InputFiles {
+        let mut inputs = self.file.inputs();
+        inputs.files.extend(self.sources.iter().cloned());
+        inputs
     }
 
     /// The folder for the results, refused where it would replace an input.
     pub fn folder(&self, args: &ResultArgs) -> Result<Option<OutputFolder>, Failure> {
-        let inputs: Vec<PathBuf> =
-            self.sources().into_iter().map(|(path, ..)| path.into()).collect();
-        folder(args, &inputs)
-    }
-
-    /// Text of the model, as the report shows it.
-    pub fn inputs(&self) -> Vec<(String, String)> {
-        vec![(self.file.name.clone(), self.file.text())]
+        folder(args, &self.inputs().paths())
     }
 }
 

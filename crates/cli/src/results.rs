@@ -5,16 +5,12 @@ use std::process::ExitCode;
 
 use slipstick::requests::Answer;
 use slipstick::table::Table;
-use slipstick_files::{OutputFolder, SourceFile, TextFile, to_csv, to_parquet};
-use slipstick_report::assessment::{Provenance, Sheet, answer};
-use slipstick_report::{FileNote, InputText, report};
+use slipstick_files::{InputFiles, OutputFolder, to_csv, to_parquet};
+use slipstick_report::assessment::{Sheet, answer};
+use slipstick_report::report;
 
 use crate::args::ResultArgs;
 use crate::failure::{Failure, print, say};
-use crate::model_file::ModelFile;
-
-/// A file that was read: its path, its hash, what it is.
-pub type Source = (String, String, String);
 
 /// The folder for results, made before any work is done.
 pub fn folder(args: &ResultArgs, inputs: &[PathBuf]) -> Result<Option<OutputFolder>, Failure> {
@@ -46,8 +42,7 @@ pub fn conclude(
     written: Written<'_>,
     sheet: &Sheet,
     tables: &[(&str, &Table)],
-    sources: &[Source],
-    inputs: &[(String, String)],
+    inputs: &InputFiles,
 ) -> Result<ExitCode, Failure> {
     let Written { folder, json, more, replaces } = written;
     if let Some(mut folder) = folder {
@@ -61,16 +56,8 @@ pub fn conclude(
         for figure in &sheet.figures {
             folder.write(&format!("{}.svg", figure.id), figure.svg.as_str().as_bytes())?;
         }
-        let files: Vec<FileNote> = sources
-            .iter()
-            .map(|(path, sha256, description)| FileNote { path, sha256, description })
-            .collect();
-        let inputs: Vec<InputText> =
-            inputs.iter().map(|(path, text)| InputText { path, text }).collect();
-        let provenance =
-            Provenance { command_line: &command_line(), files: &files, inputs: &inputs };
         folder.write(json, sheet.to_json().as_bytes())?;
-        folder.write("report.html", sheet.to_html(&provenance).as_bytes())?;
+        folder.write("report.html", inputs.page(sheet, &command_line()).as_bytes())?;
         for (name, text) in more {
             folder.write(name, text.as_bytes())?;
         }
@@ -100,8 +87,7 @@ pub fn tell(
     args: &ResultArgs,
     folder: Option<OutputFolder>,
     answer: Answer,
-    sources: &[Source],
-    inputs: &[(String, String)],
+    inputs: &InputFiles,
 ) -> Result<ExitCode, Failure> {
     let sheet = answer::sheet(&answer, args.display_units);
     let tables = answer::tables(answer);
@@ -113,46 +99,7 @@ pub fn tell(
         .collect();
     let files: Vec<(&str, &Table)> =
         files.iter().map(|(name, table)| (&name[..], *table)).collect();
-    conclude(args, Written::usual(folder), &sheet, &files, sources, inputs)
-}
-
-/// What a result of the laboratory comes from.
-pub struct Inputs<'a> {
-    pub model: Option<&'a ModelFile>,
-    /// Files of measurements, in their order.
-    pub measured: &'a [&'a SourceFile],
-    /// Which columns are which channels.
-    pub mapping: Option<&'a TextFile>,
-}
-
-impl Inputs<'_> {
-    /// All that an output folder must not replace.
-    pub fn paths(&self) -> Vec<PathBuf> {
-        let model = self.model.map(|model| model.path.clone());
-        let measured = self.measured.iter().map(|file| file.path.clone());
-        let mapping = self.mapping.map(|file| file.source.path.clone());
-        model.into_iter().chain(measured).chain(mapping).collect()
-    }
-
-    /// Path, hash and kind of each.
-    pub fn sources(&self) -> Vec<Source> {
-        let source = |file: &SourceFile, kind: &str| {
-            (file.path.display().to_string(), file.sha256.clone(), kind.to_owned())
-        };
-        let model = self.model.map(ModelFile::source);
-        let measured = self.measured.iter().map(|file| source(file, "measured"));
-        let mapping = self.mapping.map(|file| source(&file.source, "mapping"));
-        model.into_iter().chain(measured).chain(mapping).collect()
-    }
-
-    /// Path and text of those that a report shows.
-    pub fn texts(&self) -> Vec<(String, String)> {
-        let model = self.model.map(|model| (model.name.clone(), model.text()));
-        let mapping = self.mapping;
-        let mapping =
-            mapping.map(|file| (file.source.path.display().to_string(), file.text.clone()));
-        model.into_iter().chain(mapping).collect()
-    }
+    conclude(args, Written::usual(folder), &sheet, &files, inputs)
 }
 
 /// The command as it was typed, with quotes where the shell needs them.

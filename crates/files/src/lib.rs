@@ -7,6 +7,7 @@
 mod error;
 mod folder;
 mod globs;
+mod inputs;
 mod laboratory;
 mod load;
 mod parquet;
@@ -23,6 +24,7 @@ mod write;
 pub use error::FileError;
 pub use folder::{FolderRecords, folder_records};
 pub use globs::{expand, expand_all};
+pub use inputs::InputFiles;
 pub use laboratory::{LaboratoryError, TextFile, read_mapping, read_measured};
 pub use load::{
     AlongYRequest, LoadedMotion, RecordRequest, SourceFile, VerticalRequest, load_record,

@@ -1,24 +1,21 @@
 //! The chapter "The paper, reproduced": Markdown with figures, and the claims as JSON.
 //!
-//! Every number of the chapter comes from [`Paper`]; the same paper gives the same bytes.
+//! Its prose is `chapter/paper.md`; every number comes from [`Paper`]; the same paper gives the same
+//! bytes.
 
-mod doc;
-mod friction;
 mod graphs;
 mod histories;
-mod iteration;
-mod offset;
-mod opening;
-mod storey;
-mod suite;
-mod window;
+mod markdown;
+mod tables;
 
-use crate::{Claim, Paper, Verdict};
+use crate::fill::fill;
+use crate::{Claim, Paper, PaperError, Verdict};
 
-use doc::Doc;
 use slipstick_report::json::Json;
 use slipstick_report::number::significant;
-use slipstick_report::plot::Svg;
+use slipstick_report::plot::{Figure, Svg};
+
+const TEMPLATE: &str = include_str!("chapter/paper.md");
 
 /// The chapter and its figures.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,18 +27,40 @@ pub struct Chapter {
 }
 
 /// Writes the chapter.
-#[must_use]
-pub fn chapter(paper: &Paper) -> Chapter {
-    let mut doc = Doc::default();
-    opening::write(&mut doc, paper);
-    storey::write(&mut doc, paper);
-    window::write(&mut doc, paper);
-    offset::write(&mut doc, paper);
-    friction::write(&mut doc, paper);
-    iteration::write(&mut doc, paper);
-    suite::write(&mut doc, paper);
-    let (markdown, figures) = doc.finish();
-    Chapter { markdown: format!("{}\n", markdown.trim_end()), figures }
+///
+/// # Errors
+/// [`PaperError::Text`] for a template that does not fit the paper, which tests rule out.
+pub fn chapter(paper: &Paper) -> Result<Chapter, PaperError> {
+    let histories: Vec<Figure> = paper.drawn.iter().map(histories::drawn).collect();
+    let windows = graphs::windows(paper);
+    let single = graphs::single(paper);
+    let mut values = tables::values(paper, &histories, &windows);
+    for figure in &single {
+        values.push((figure.id.to_owned(), markdown::image(figure).into()));
+    }
+    for line in TEMPLATE.lines().filter(|line| line.starts_with("{claims ")) {
+        let list = line.trim_start_matches('{').trim_end_matches('}');
+        values.push((list.to_owned(), markdown::claims(listed(paper, list)?).into()));
+    }
+    let markdown = markdown::refilled(&fill("paper.md", TEMPLATE, &values)?);
+    let figures = histories.iter().chain(windows.iter().map(|(_, figure)| figure)).chain(&single);
+    let figures = figures.map(|figure| (format!("{}.svg", figure.id), figure.to_svg())).collect();
+    Ok(Chapter { markdown, figures })
+}
+
+/// The claims of a list, `claims fig3 steel-*`, in the order of the paper.
+fn listed<'a>(paper: &'a Paper, list: &str) -> Result<Vec<&'a Claim>, PaperError> {
+    let fits = |claim: &Claim, id: &str| match id.strip_suffix('*') {
+        Some(start) => claim.id.starts_with(start),
+        None => claim.id == id,
+    };
+    let ids: Vec<&str> = list.split(' ').skip(1).collect();
+    for id in &ids {
+        if !paper.claims.iter().any(|claim| fits(claim, id)) {
+            return Err(PaperError::text("paper.md", format!("a claim {id}"), "none"));
+        }
+    }
+    Ok(paper.claims.iter().filter(|claim| ids.iter().any(|id| fits(claim, id))).collect())
 }
 
 /// The claims as an array of `{id, section, claim, paper_value, computed_value, unit, rule, verdict,
@@ -77,11 +96,11 @@ pub fn listing(paper: &Paper) -> String {
 fn object(claim: &Claim) -> Json {
     Json::Object(vec![
         ("id", claim.id.as_str().into()),
-        ("section", claim.section.into()),
+        ("section", claim.section.as_str().into()),
         ("claim", claim.claim.as_str().into()),
         ("paper_value", claim.paper_value.into()),
         ("computed_value", claim.computed_value.into()),
-        ("unit", claim.unit.into()),
+        ("unit", claim.unit.as_str().into()),
         ("rule", claim.rule.as_str().into()),
         ("verdict", claim.verdict.words().into()),
         ("why", claim.why.as_str().into()),

@@ -1,10 +1,11 @@
 //! Static against kinetic friction, friction that falls with mass, and overturning.
 
+use crate::claims::Finding;
 use crate::curves::range;
-use crate::library::{Experiment, Library, Shake, with_friction};
+use crate::library::{Experiment, Library, Shake, storey_peak, with_friction};
 use crate::offset::studied;
 use crate::sensitivity::{Compared, compared};
-use crate::{Claim, Grid, PaperError, Verdict};
+use crate::{Grid, PaperError};
 use slipstick::motion::Sine;
 use slipstick::response::Demands;
 
@@ -48,15 +49,13 @@ pub struct Overturning {
     pub lifts_at_m_per_s2: Option<f64>,
 }
 
-/// What [`run`] finds.
-pub(crate) struct FrictionResults {
-    pub pairs: Vec<FrictionPair>,
-    pub lighter: Vec<LighterFriction>,
-    pub overturning: Vec<Overturning>,
-    pub claims: Vec<Claim>,
-}
+type Results = (Vec<FrictionPair>, Vec<LighterFriction>, Vec<Overturning>);
 
-pub(crate) fn run(library: &Library, grid: Grid) -> Result<FrictionResults, PaperError> {
+pub(crate) fn run(
+    library: &Library,
+    grid: Grid,
+    findings: &mut Vec<Finding>,
+) -> Result<Results, PaperError> {
     let mut pairs = Vec::new();
     for experiment in studied(library)? {
         pairs.push(pair(&experiment)?);
@@ -71,9 +70,9 @@ pub(crate) fn run(library: &Library, grid: Grid) -> Result<FrictionResults, Pape
     for experiment in library.experiments() {
         overturning.extend(overturned(experiment, grid)?);
     }
-    let mut claims = vec![novelty(&pairs), other_mass(&lighter)];
-    claims.extend(rocking(&overturning));
-    Ok(FrictionResults { pairs, lighter, overturning, claims })
+    findings.extend([novelty(&pairs), other_mass(&lighter)]);
+    findings.extend(rocking(&overturning));
+    Ok((pairs, lighter, overturning))
 }
 
 fn pair(experiment: &Experiment) -> Result<FrictionPair, PaperError> {
@@ -95,16 +94,13 @@ fn lowered(experiment: &Experiment, factors: [f64; 2]) -> Result<LighterFriction
         [factors[0] * model.static_friction()[0], factors[1] * model.kinetic_friction()[0]];
     let before = experiment.demands()?;
     let after = experiment.with_model(with_friction(model, mu_s, mu_k)?).demands()?;
-    let storey = |d: &Demands, of: fn(&slipstick::response::StoreyDemands) -> f64| {
-        d.storeys.first().map_or(0.0, of)
-    };
     let percent = |of: &dyn Fn(&Demands) -> f64| 100.0 * (of(&after) / of(&before) - 1.0);
     Ok(LighterFriction {
         name: experiment.name.clone(),
         factors,
         changes_percent: [
-            percent(&|d| storey(d, |s| s.peak_acceleration_m_per_s2)),
-            percent(&|d| storey(d, |s| s.peak_displacement_m)),
+            percent(&storey_peak),
+            percent(&|d| d.storeys.first().map_or(0.0, |s| s.peak_displacement_m)),
             percent(&|d| d.peak_sliding_displacement_m),
         ],
         residual_mm: 1e3
@@ -137,68 +133,28 @@ fn overturned(experiment: &Experiment, grid: Grid) -> Result<Option<Overturning>
     Ok((!found.ratios.is_empty()).then_some(found))
 }
 
-fn novelty(pairs: &[FrictionPair]) -> Claim {
+fn novelty(pairs: &[FrictionPair]) -> Finding {
     let of = |p: &FrictionPair, i: usize, figure: usize| {
         100.0 * (p.figures[i][figure] / p.figures[1][figure] - 1.0)
     };
-    let sliding: Vec<f64> =
-        pairs.iter().map(|p| of(p, 0, 2).abs().max(of(p, 2, 2).abs())).collect();
-    let matters = sliding.iter().filter(|change| **change >= 5.0).count();
-    let largest = range(sliding.iter().copied())[1];
-    let acceleration = range(pairs.iter().flat_map(|p| [of(p, 0, 0), of(p, 2, 0)]));
-    let residual =
-        range(pairs.iter().flat_map(|p| [0, 2].map(|i| p.figures[i][3] - p.figures[1][3])));
-    let share = 100.0 * matters as f64 / pairs.len() as f64;
-    Claim::banded(
-        (
-            "static-kinetic",
-            "1",
-            "Static and kinetic friction must be told apart, which earlier studies did not",
-        ),
-        None,
-        (share, "%"),
-        (
-            [50.0, 100.0],
-            "one coefficient for both, either of them, changes the peak sliding displacement by 5 \
-             % or more in at least half of the tests",
-        ),
-        |verdict| {
-            let found = format!(
-                "{matters} of {} tests; the largest change of the peak sliding displacement is \
-                 {largest:.0} %, peak block accelerations change by {:+.0} to {:+.0} %, residuals \
-                 by {:+.1} to {:+.1} mm",
-                pairs.len(),
-                acceleration[0],
-                acceleration[1],
-                residual[0],
-                residual[1]
-            );
-            match verdict {
-                Verdict::Agrees => format!("{found}."),
-                _ => format!("{found}: {:+.0} % from the rule.", share - 50.0),
-            }
-        },
-    )
+    let sliding = || pairs.iter().map(|p| of(p, 0, 2).abs().max(of(p, 2, 2).abs()));
+    let changed = sliding().filter(|change| *change >= 5.0).count();
+    let residuals = |p: &FrictionPair| [0, 2].map(|i| p.figures[i][3] - p.figures[1][3]);
+    Finding::new("static-kinetic", 100.0 * changed as f64 / pairs.len() as f64)
+        .quoting("changed", changed)
+        .quoting("tests", pairs.len())
+        .quoting("largest", range(sliding())[1])
+        .quoting("accelerations", range(pairs.iter().flat_map(|p| [of(p, 0, 0), of(p, 2, 0)])))
+        .quoting("residuals", range(pairs.iter().flat_map(residuals)))
 }
 
-fn other_mass(lighter: &[LighterFriction]) -> Claim {
+fn other_mass(lighter: &[LighterFriction]) -> Finding {
     let of = |i: usize| range(lighter.iter().map(|l| l.changes_percent[i]));
-    let residual = range(lighter.iter().map(|l| l.residual_mm));
-    let [a, d, s] = [of(0), of(1), of(2)];
-    Claim::unchecked(
-        (
-            "friction-other-mass",
-            "6",
-            "Friction measured with 325 kg holds with up to 201 kg more on the block",
-        ),
-        format!(
-            "No test with more mass is described. With friction 4 to 11 % lower, as section 3 finds \
-             for twice the mass, peak storey accelerations change by {:+.1} to {:+.1} %, storey \
-             displacements by {:+.1} to {:+.1} %, peak sliding by {:+.1} to {:+.1} %, residuals \
-             by {:+.1} to {:+.1} mm.",
-            a[0], a[1], d[0], d[1], s[0], s[1], residual[0], residual[1]
-        ),
-    )
+    Finding::unchecked("friction-other-mass")
+        .quoting("accelerations", of(0))
+        .quoting("displacements", of(1))
+        .quoting("sliding", of(2))
+        .quoting("residuals", range(lighter.iter().map(|l| l.residual_mm)))
 }
 
 /// Largest ratio of some mock-ups: name, table in m/s², ratio.
@@ -208,35 +164,16 @@ fn worst<'a>(all: impl Iterator<Item = &'a Overturning>) -> (&'a str, f64, f64) 
         .unwrap_or(("", f64::NAN, f64::NAN))
 }
 
-fn rocking(overturning: &[Overturning]) -> [Claim; 2] {
+fn rocking(overturning: &[Overturning]) -> [Finding; 2] {
     let blocks = || overturning.iter().filter(|o| !o.has_storey);
     let (name, level, ratio) = worst(blocks());
-    let lifts = range(blocks().filter_map(|o| o.lifts_at_m_per_s2))[0];
-    let block = Claim::unchecked(
-        ("no-rocking-block", "1, 2", "The blocks of section 3 do not rock"),
-        format!(
-            "The amplitudes of section 3 are not stated. For tables of 0.1 to 5 m/s² the \
-             overturning moment is at most {ratio:.2} of weight times half the width, for {name} \
-             at {level} m/s²; the first mock-up reaches 1 near {lifts:.1} m/s²."
-        ),
-    );
+    let block = Finding::unchecked("no-rocking-block")
+        .quoting("ratio", ratio)
+        .quoting("name", name)
+        .quoting("level", level)
+        .quoting("lifts", range(blocks().filter_map(|o| o.lifts_at_m_per_s2))[0]);
     let (name, level, ratio) = worst(overturning.iter().filter(|o| o.has_storey));
-    let oscillator = Claim::banded(
-        ("no-rocking-oscillator", "6", "The block with its oscillator does not rock"),
-        None,
-        (ratio, ""),
-        (
-            [0.0, 1.0],
-            "largest overturning moment over the weight times half the width at most 1, for tables \
-             of 0.1 to 5 m/s² under the sine of each test and Taft",
-        ),
-        |verdict| match verdict {
-            Verdict::Agrees => format!("Largest for {name} at {level} m/s²: {ratio:.2}."),
-            _ => format!(
-                "Largest for {name} at {level} m/s²: {ratio:.2}, {:+.2} beyond lift-off.",
-                ratio - 1.0
-            ),
-        },
-    );
+    let oscillator =
+        Finding::new("no-rocking-oscillator", ratio).quoting("name", name).quoting("level", level);
     [block, oscillator]
 }

@@ -1,7 +1,9 @@
 //! The stepwise iteration: how many turns it takes, and where it fails.
 
+use crate::claims::Finding;
+use crate::fill::{Values, values};
 use crate::library::{Library, fixed};
-use crate::{Claim, Grid, ITERATION, PaperError, Verdict, piece};
+use crate::{Grid, ITERATION, PaperError, piece};
 use slipstick::error::SolveError;
 use slipstick::model::Model;
 use slipstick::motion::GroundMotion;
@@ -41,7 +43,8 @@ pub(crate) fn run(
     library: &Library,
     grid: Grid,
     engine: &Engine<'_>,
-) -> Result<(Vec<IterationCell>, Vec<Claim>), PaperError> {
+    findings: &mut Vec<Finding>,
+) -> Result<Vec<IterationCell>, PaperError> {
     let steps_s: &[f64] = grid.pick(&[0.001, 0.002, 0.005, 0.01, 0.02], &[0.005, 0.01, 0.02]);
     let tolerances: &[f64] =
         grid.pick(&[1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10], &[1e-3, 1e-5, 1e-10]);
@@ -60,14 +63,9 @@ pub(crate) fn run(
         })?;
         cells.extend(more.into_iter().collect::<Result<Vec<_>, PaperError>>()?);
     }
-    let coarse = coarse(library)?;
-    let claims = vec![
-        six(&cells, &coarse),
-        sufficient(&cells),
-        small_tolerance(&cells),
-        instability(&cells),
-    ];
-    Ok((cells, claims))
+    findings.extend(six(&cells, &coarse(library)?));
+    findings.extend([small_tolerance(&cells), instability(&cells)]);
+    Ok(cells)
 }
 
 fn cell(
@@ -151,116 +149,62 @@ fn of(cells: &[IterationCell], tolerance: f64) -> impl Iterator<Item = &Iteratio
     cells.iter().filter(move |cell| cell.tolerance_m_per_s2 == tolerance)
 }
 
-fn six(cells: &[IterationCell], coarse: &IterationCell) -> Claim {
-    let at_paper: Vec<&IterationCell> = of(cells, PAPER_TOLERANCE).collect();
-    let mean = at_paper.iter().map(|c| c.mean).sum::<f64>() / at_paper.len() as f64;
-    let by_step = at_paper
-        .iter()
-        .map(|c| format!("{:.2} at {} ms", c.mean, 1e3 * c.dt_s))
-        .collect::<Vec<_>>()
-        .join(", ");
-    let tightest = cells.iter().map(|c| c.tolerance_m_per_s2).fold(1.0, f64::min);
-    let (sum, count) = of(cells, tightest).fold((0.0, 0.0), |(s, n), c| (s + c.mean, n + 1.0));
-    Claim::banded(
-        (
-            "six-iterations",
-            "5",
-            "About six iterations a step at δ = 1e-5 m/s² (read as: in the mean)",
-        ),
-        Some(6.0),
-        (mean, ""),
-        ([5.0, 7.0], "mean over all mock-ups, motions and steps from 5 to 7"),
-        |verdict| {
-            let cause = match verdict {
-                Verdict::Agrees => String::new(),
-                _ => format!(
-                    "; {:+.2} iterations off. The paper does not state its step. At δ = {:.0e} \
-                     m/s² the mean over the same steps is {:.2}; under the sines, at δ = 1e-5 m/s², it \
-                     passes six at a step of {:.0} ms ({:.2}, with {} of {} runs given up)",
-                    mean - 6.0,
-                    tightest,
-                    sum / count,
-                    1e3 * coarse.dt_s,
-                    coarse.mean,
-                    coarse.failures,
-                    coarse.runs,
-                ),
-            };
-            format!("By step {by_step}{cause}.")
-        },
-    )
+/// The smallest `δ`.
+fn tightest(cells: &[IterationCell]) -> f64 {
+    cells.iter().map(|c| c.tolerance_m_per_s2).fold(1.0, f64::min)
 }
 
-/// The other reading: six are enough for any step.
-fn sufficient(cells: &[IterationCell]) -> Claim {
-    let usual = || of(cells, PAPER_TOLERANCE).filter(|c| c.dt_s <= USUAL_STEP_S);
-    let largest = usual().map(|c| c.max).max().unwrap_or(0);
-    Claim::banded(
-        (
-            "six-sufficient",
-            "5",
-            "About six iterations a step at δ = 1e-5 m/s² (read as: enough for any step)",
-        ),
-        Some(6.0),
-        (f64::from(largest), ""),
-        (
-            [5.0, 7.0],
-            "largest number in a step, over the runs that converge at steps up to 10 ms, \
-                      from 5 to 7",
-        ),
-        |_| {
-            let text = of(cells, PAPER_TOLERANCE)
-                .map(|c| format!("{} at {} ms", c.max, 1e3 * c.dt_s))
-                .collect::<Vec<_>>()
-                .join(", ");
-            format!("Largest by step: {text}.")
-        },
-    )
+/// Six in the mean, and the other reading: six are enough for any step.
+fn six(cells: &[IterationCell], coarse: &IterationCell) -> [Finding; 2] {
+    let mean = |tolerance: f64| {
+        let (sum, count) = of(cells, tolerance).fold((0.0, 0.0), |(s, n), c| (s + c.mean, n + 1.0));
+        sum / count
+    };
+    let steps = |name: &str, value: fn(&IterationCell) -> f64| -> Vec<Values> {
+        let step =
+            |c: &IterationCell| values([(name, value(c).into()), ("ms", (1e3 * c.dt_s).into())]);
+        of(cells, PAPER_TOLERANCE).map(step).collect()
+    };
+    let tightest = tightest(cells);
+    let usual = of(cells, PAPER_TOLERANCE).filter(|c| c.dt_s <= USUAL_STEP_S);
+    let largest = usual.map(|c| c.max).max().unwrap_or(0);
+    [
+        Finding::new("six-iterations", mean(PAPER_TOLERANCE))
+            .quoting("steps", steps("mean", |c| c.mean))
+            .quoting("tightest", format!("{tightest:.0e}"))
+            .quoting("tightest_mean", mean(tightest))
+            .quoting("coarse_ms", 1e3 * coarse.dt_s)
+            .quoting("coarse_mean", coarse.mean)
+            .quoting("failures", coarse.failures)
+            .quoting("runs", coarse.runs),
+        Finding::new("six-sufficient", f64::from(largest))
+            .quoting("steps", steps("largest", |c| f64::from(c.max))),
+    ]
 }
 
 /// δ = 1e-5 as "usually satisfied": runs that converge.
-fn small_tolerance(cells: &[IterationCell]) -> Claim {
-    let (runs, failures) = of(cells, PAPER_TOLERANCE)
-        .fold((0, 0), |(runs, failures), c| (runs + c.runs, failures + c.failures));
-    let share = 100.0 * (1.0 - failures as f64 / runs as f64);
-    Claim::banded(
-        ("usually-converges", "5", "The criterion δ = 1e-5 m/s² is usually satisfied"),
-        None,
-        (share, "%"),
-        ([50.0, 100.0], "more than half of the runs converge in every step"),
-        |_| {
-            let smallest = cells.iter().map(|c| c.tolerance_m_per_s2).fold(1.0, f64::min);
-            let (r, f) = of(cells, smallest).fold((0, 0), |(r, f), c| (r + c.runs, f + c.failures));
-            format!(
-                "{failures} of {runs} runs were given up after 200 iterations in one step; with δ = \
-                 {smallest:.0e} m/s² {f} of {r}."
-            )
-        },
-    )
+fn small_tolerance(cells: &[IterationCell]) -> Finding {
+    let count = |tolerance: f64| {
+        of(cells, tolerance).fold((0, 0), |(runs, fails), c| (runs + c.runs, fails + c.failures))
+    };
+    let (runs, failures) = count(PAPER_TOLERANCE);
+    let tightest = tightest(cells);
+    let (tightest_runs, tightest_failures) = count(tightest);
+    Finding::new("usually-converges", 100.0 * (1.0 - failures as f64 / runs as f64))
+        .quoting("failures", failures)
+        .quoting("runs", runs)
+        .quoting("tightest", format!("{tightest:.0e}"))
+        .quoting("tightest_failures", tightest_failures)
+        .quoting("tightest_runs", tightest_runs)
 }
 
 /// Without sliding the iteration is linear: what it needs beyond that comes from the sign.
-fn instability(cells: &[IterationCell]) -> Claim {
+fn instability(cells: &[IterationCell]) -> Finding {
     let held_failures: usize = cells.iter().map(|c| c.held_failures).sum();
-    let failures: usize = cells.iter().map(|c| c.failures).sum();
-    let held_max = cells.iter().map(|c| c.held_max).max().unwrap_or(0);
-    let largest = cells.iter().map(|c| c.max).max().unwrap_or(0);
-    Claim::banded(
-        (
-            "instability",
-            "5",
-            "The iteration becomes unstable only where the sign of the sliding velocity flips \
-             between two iterations",
-        ),
-        Some(0.0),
-        (held_failures as f64, ""),
-        ([0.0, 0.0], "no run of a mock-up held by the table, where no sign can flip, fails"),
-        |_| {
-            format!(
-                "Held by the table no step takes more than {held_max} iterations and {held_failures} \
-                 runs fail; sliding, one step takes {largest} and {failures} runs fail over all δ \
-                 and steps."
-            )
-        },
-    )
+    let largest =
+        |of: fn(&IterationCell) -> u32| f64::from(cells.iter().map(of).max().unwrap_or(0));
+    Finding::new("instability", held_failures as f64)
+        .quoting("held_largest", largest(|c| c.held_max))
+        .quoting("largest", largest(|c| c.max))
+        .quoting("failures", cells.iter().map(|c| c.failures).sum::<usize>())
 }

@@ -1,7 +1,8 @@
 //! The paper, reproduced: every experiment and every claim of the source, computed again.
 //!
 //! [`Library`] holds the mock-ups and records ([`paper_library`] those of the examples),
-//! [`reproduce`] runs and judges everything on them, [`chapter`] writes what came of it.
+//! [`reproduce`] runs and judges everything on them, [`chapter`] writes what came of it. What the paper
+//! claims stands in `claims.toml`, the chapter's prose in `chapter/paper.md`.
 //!
 //! **Rules of judgement.** A number agrees where the computed one is within half a unit of the last
 //! digit that the paper prints, or within the band that the claim's own `rule` states for a word
@@ -14,8 +15,10 @@ use slipstick::study::engine::Engine;
 
 mod carried;
 pub mod chapter;
+mod claims;
 mod curves;
 mod experiments;
+mod fill;
 mod friction;
 mod iteration;
 mod library;
@@ -73,7 +76,7 @@ pub struct Claim {
     /// Short stable name.
     pub id: String,
     /// Where the paper says it.
-    pub section: &'static str,
+    pub section: String,
     /// What it says, in our words.
     pub claim: String,
     /// The number it prints, in `unit`; `None` where it prints none.
@@ -81,7 +84,7 @@ pub struct Claim {
     /// The number computed, in `unit`.
     pub computed_value: Option<f64>,
     /// Unit of both, empty for a ratio.
-    pub unit: &'static str,
+    pub unit: String,
     /// When it agrees.
     pub rule: String,
     /// The judgement.
@@ -89,74 +92,6 @@ pub struct Claim {
     /// Why: what was computed; for a difference its size and cause, for what cannot be checked the
     /// missing datum and the range scanned.
     pub why: String,
-}
-
-impl Claim {
-    /// A printed number, `half_unit` being half a unit of its last digit; `why` gets the
-    /// difference, computed less printed.
-    fn printed(
-        (id, section, claim): (&str, &'static str, &str),
-        [paper_value, half_unit]: [f64; 2],
-        (computed_value, unit): (f64, &'static str),
-        why: impl FnOnce(Verdict, f64) -> String,
-    ) -> Self {
-        let difference = computed_value - paper_value;
-        // Half a unit itself still rounds to the printed digits, one way or the other.
-        let verdict = if difference.abs() <= half_unit * (1.0 + 1e-9) {
-            Verdict::Agrees
-        } else {
-            Verdict::Differs
-        };
-        Self {
-            id: id.to_owned(),
-            section,
-            claim: claim.to_owned(),
-            paper_value: Some(paper_value),
-            computed_value: Some(computed_value),
-            unit,
-            rule: format!("within {half_unit} {unit} of the printed number").replace("  ", " "),
-            verdict,
-            why: why(verdict, difference),
-        }
-    }
-
-    /// A statement judged by a figure that must lie in a band (both ends included).
-    fn banded(
-        (id, section, claim): (&str, &'static str, &str),
-        paper_value: Option<f64>,
-        (computed_value, unit): (f64, &'static str),
-        ([from, to], rule): ([f64; 2], &str),
-        why: impl FnOnce(Verdict) -> String,
-    ) -> Self {
-        let inside = (from..=to).contains(&computed_value);
-        let verdict = if inside { Verdict::Agrees } else { Verdict::Differs };
-        Self {
-            id: id.to_owned(),
-            section,
-            claim: claim.to_owned(),
-            paper_value,
-            computed_value: Some(computed_value),
-            unit,
-            rule: rule.to_owned(),
-            verdict,
-            why: why(verdict),
-        }
-    }
-
-    /// A statement whose data the paper does not give.
-    fn unchecked((id, section, claim): (&str, &'static str, &str), why: String) -> Self {
-        Self {
-            id: id.to_owned(),
-            section,
-            claim: claim.to_owned(),
-            paper_value: None,
-            computed_value: None,
-            unit: "",
-            rule: "none: a datum is missing".to_owned(),
-            verdict: Verdict::CannotBeChecked,
-            why,
-        }
-    }
 }
 
 /// How finely the ranges of the paper are scanned.
@@ -225,11 +160,6 @@ impl Paper {
     pub fn count(&self, verdict: Verdict) -> usize {
         self.claims.iter().filter(|claim| claim.verdict == verdict).count()
     }
-
-    /// The claims whose name begins so.
-    pub fn claims_of<'a>(&'a self, ids: &'a [&'a str]) -> impl Iterator<Item = &'a Claim> {
-        self.claims.iter().filter(move |claim| ids.iter().any(|id| claim.id.starts_with(id)))
-    }
 }
 
 /// Why the paper could not be reproduced: a fault of the library's own texts, or of a solver.
@@ -259,6 +189,22 @@ pub enum PaperError {
         /// Its name.
         what: String,
     },
+    /// A text of the paper that does not fit what was computed.
+    #[error("{place}: expected {expected}, found {found}")]
+    Text {
+        /// The claim or the file.
+        place: String,
+        /// What it needs.
+        expected: String,
+        /// What there is.
+        found: String,
+    },
+}
+
+impl PaperError {
+    fn text(place: &str, expected: impl Into<String>, found: impl Into<String>) -> Self {
+        Self::Text { place: place.to_owned(), expected: expected.into(), found: found.into() }
+    }
 }
 
 /// Shares of the work in what takes most of it, of [`WHOLE`]; every other step is one [`STEP`].
@@ -283,38 +229,28 @@ pub(crate) fn piece(share: u64, i: usize, count: usize) -> u64 {
 /// stepwise analysis that fails is a result. [`PaperError::Stopped`] where the engine is stopped.
 pub fn reproduce(library: &Library, grid: Grid, engine: &Engine<'_>) -> Result<Paper, PaperError> {
     engine.plan(WHOLE);
-    let (tests, drawn, mut claims) = experiments::run(library)?;
+    let mut findings = Vec::new();
+    let (tests, drawn) = experiments::run(library, &mut findings)?;
     engine.done(STEP)?;
-    let (cantilevers, more) = numbers::run(library)?;
-    claims.extend(more);
+    let cantilevers = numbers::run(library, &mut findings)?;
     engine.done(STEP)?;
-    let (iterations, more) = iteration::run(library, grid, engine)?;
-    claims.extend(more);
-    let (displacements, more) = storey::run(library, grid)?;
-    claims.extend(more);
+    let iterations = iteration::run(library, grid, engine, &mut findings)?;
+    let displacements = storey::run(library, grid, &mut findings)?;
     engine.done(STEP)?;
-    let (free_sliding, more) = resonance::run(library, grid)?;
-    claims.extend(more);
+    let free_sliding = resonance::run(library, grid, &mut findings)?;
     engine.done(STEP)?;
-    let (windows, more) = window::run(library, grid, engine)?;
-    claims.extend(more);
-    let offset::Offsets { rows: offsets, step_drifts, start_phases, claims: more } =
-        offset::run(library, grid)?;
-    claims.extend(more);
+    let windows = window::run(library, grid, engine, &mut findings)?;
+    let (offsets, step_drifts, start_phases) = offset::run(library, grid, &mut findings)?;
     engine.done(STEP)?;
-    let (sensitivities, more) = sensitivity::run(library, grid)?;
-    claims.extend(more);
+    let sensitivities = sensitivity::run(library, grid, &mut findings)?;
     engine.done(STEP)?;
-    let friction::FrictionResults { pairs: friction_pairs, lighter, overturning, claims: more } =
-        friction::run(library, grid)?;
-    claims.extend(more);
+    let (friction_pairs, lighter, overturning) = friction::run(library, grid, &mut findings)?;
     engine.done(STEP)?;
     let (suite, spectra) = suite::run(library, grid)?;
     engine.done(STEP)?;
-    claims.sort_by_key(|claim| section_order(claim.section));
     Ok(Paper {
         grid,
-        claims,
+        claims: claims::judge(library.claims(), findings)?,
         tests,
         drawn,
         cantilevers,
@@ -332,15 +268,4 @@ pub fn reproduce(library: &Library, grid: Grid, engine: &Engine<'_>) -> Result<P
         suite,
         spectra,
     })
-}
-
-/// Where in the paper a claim stands; of several places the first counts.
-fn section_order(section: &str) -> usize {
-    const ORDER: [&str; 12] =
-        ["abstract", "1", "2", "3", "3.1", "3.2.1", "3.2.2", "3.2.3", "3.2.4", "5", "6", "7.1"];
-    let first = section.split(',').next().unwrap_or_default();
-    ORDER
-        .iter()
-        .position(|known| *known == first)
-        .unwrap_or(ORDER.len() + usize::from(first == "8"))
 }

@@ -1,6 +1,7 @@
 //! The mock-ups and records of the paper, and models and motions made from them.
 
 use crate::PaperError;
+use crate::claims::{self, Facts};
 use slipstick::error::{ModelError, MotionError};
 use slipstick::input::{self, MotionSource, Scale};
 use slipstick::model::{Block, Frame, InitialState, Model, Slider};
@@ -12,6 +13,9 @@ use slipstick::solver;
 
 /// Friction that holds any mock-up on any table: the fixed base.
 const HOLDS: f64 = 1e3;
+
+/// Frequency of the oscillator of figure 11, in Hz, which section 6 rounds to 2.65.
+pub(crate) const FIGURE_11_HZ: f64 = 2.687;
 
 /// How the table of an experiment moves, without its tail.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,11 +41,12 @@ pub struct Experiment {
     pub tail_s: f64,
 }
 
-/// All mock-ups and records.
+/// All mock-ups and records, and what the paper claims.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Library {
     experiments: Vec<Experiment>,
     records: Vec<(String, GroundMotion)>,
+    claims: Vec<Facts>,
 }
 
 impl Library {
@@ -83,7 +88,7 @@ impl Library {
             let id = (*id).to_owned();
             experiments.push(Experiment { id, name, model: analysis.model, shake, tail_s });
         }
-        Ok(Self { experiments, records: motions })
+        Ok(Self { experiments, records: motions, claims: claims::facts()? })
     }
 
     /// All experiments, in the order given.
@@ -95,6 +100,16 @@ impl Library {
     /// The experiment of a name.
     pub(crate) fn experiment(&self, id: &str) -> Result<&Experiment, PaperError> {
         self.experiments.iter().find(|e| e.id == id).ok_or_else(|| missing(id))
+    }
+
+    /// The experiment of a name as a figure shows it: that of figure 11 with its own frequency.
+    pub(crate) fn drawn(&self, id: &str) -> Result<Experiment, PaperError> {
+        let mut experiment = self.experiment(id)?.clone();
+        if id == "section6-201kg-2_65hz-sine" {
+            experiment.model = with_frequency(&experiment.model, FIGURE_11_HZ)?;
+            experiment.name = experiment.name.replace("2.65 Hz", "2.687 Hz");
+        }
+        Ok(experiment)
     }
 
     /// All records as they stand, with their names, in the order given.
@@ -114,6 +129,21 @@ impl Library {
     pub(crate) fn record(&self, name: &str) -> Result<&GroundMotion, PaperError> {
         let found = self.records.iter().find(|(n, _)| n == name);
         found.map(|(_, motion)| motion).ok_or_else(|| missing(name))
+    }
+
+    /// The fixed facts of all claims.
+    pub(crate) fn claims(&self) -> &[Facts] {
+        &self.claims
+    }
+
+    /// The facts of one claim.
+    pub(crate) fn claim(&self, id: &str) -> Result<&Facts, PaperError> {
+        self.claims.iter().find(|facts| facts.id == id).ok_or_else(|| missing(id))
+    }
+
+    /// The number that the paper prints for a claim.
+    pub(crate) fn printed(&self, id: &str) -> Result<f64, PaperError> {
+        self.claim(id)?.paper.ok_or_else(|| missing(id))
     }
 
     /// The mock-ups with an oscillator (section 6), as their sine experiments.
@@ -191,14 +221,14 @@ fn resampled(motion: &GroundMotion, dt_s: f64) -> Result<GroundMotion, MotionErr
     }
 }
 
-/// The same mock-up with another bearing.
-pub(crate) fn with_slider(
+/// The same mock-up with another block, bearing or structure.
+fn changed(
     model: &Model,
-    change: impl FnOnce(&mut Slider),
+    change: impl FnOnce(&mut Block, &mut Slider, &mut Frame),
 ) -> Result<Model, ModelError> {
-    let mut slider = model.slider().clone();
-    change(&mut slider);
-    let (block, frame) = (*model.block(), model.frame().clone());
+    let (mut block, mut slider, mut frame) =
+        (*model.block(), model.slider().clone(), model.frame().clone());
+    change(&mut block, &mut slider, &mut frame);
     Model::new(block, slider, frame, model.gravity_m_per_s2(), model.initial().clone())
 }
 
@@ -224,7 +254,7 @@ fn coulomb(statics: [f64; 2], kinetics: [f64; 2]) -> Result<Friction, ModelError
 
 /// The same mock-up on a surface that rises towards +x.
 pub(crate) fn with_tilt(model: &Model, tilt_rad: f64) -> Result<Model, ModelError> {
-    with_slider(model, |slider| slider.tilt_rad = tilt_rad)
+    changed(model, |_, slider, _| slider.tilt_rad = tilt_rad)
 }
 
 /// The same mock-up held by the table.
@@ -232,42 +262,28 @@ pub(crate) fn fixed(model: &Model) -> Result<Model, ModelError> {
     with_friction(model, HOLDS, HOLDS)
 }
 
-/// The same mock-up with another structure.
-pub(crate) fn with_frame(
-    model: &Model,
-    change: impl FnOnce(&mut Frame),
-) -> Result<Model, ModelError> {
-    let mut frame = model.frame().clone();
-    change(&mut frame);
-    let gravity = model.gravity_m_per_s2();
-    Model::new(*model.block(), model.slider().clone(), frame, gravity, model.initial().clone())
-}
-
 /// The same mock-up with its one storey tuned to a fixed-base frequency in Hz.
 pub(crate) fn with_frequency(model: &Model, frequency_hz: f64) -> Result<Model, ModelError> {
     let rate = core::f64::consts::TAU * frequency_hz;
-    with_frame(model, |frame| {
+    changed(model, |_, _, frame| {
         frame.stiffnesses_n_per_m = frame.masses_kg.iter().map(|m| m * rate * rate).collect();
     })
 }
 
 /// The same mock-up with a block of another mass in kg.
 pub(crate) fn with_block_mass(model: &Model, mass_kg: f64) -> Result<Model, ModelError> {
-    let block = Block { mass_kg, ..*model.block() };
-    let gravity = model.gravity_m_per_s2();
-    Model::new(
-        block,
-        model.slider().clone(),
-        model.frame().clone(),
-        gravity,
-        model.initial().clone(),
-    )
+    changed(model, |block, _, _| block.mass_kg = mass_kg)
 }
 
 /// The same mock-up from another state.
 pub(crate) fn with_initial(model: &Model, initial: InitialState) -> Result<Model, ModelError> {
     let gravity = model.gravity_m_per_s2();
     Model::new(*model.block(), model.slider().clone(), model.frame().clone(), gravity, initial)
+}
+
+/// Peak storey acceleration in m/s²; 0 without a storey.
+pub(crate) fn storey_peak(demands: &Demands) -> f64 {
+    demands.storeys.first().map_or(0.0, |storey| storey.peak_acceleration_m_per_s2)
 }
 
 /// Mass `M2` in kg and fixed-base frequency in Hz of a one-storey mock-up.

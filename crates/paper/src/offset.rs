@@ -1,9 +1,10 @@
 //! Where an offset of the sliding displacement comes from.
 
+use crate::claims::Finding;
 use crate::curves::{crossing, linspace, range};
-use crate::experiments::FIGURE_11_HZ;
-use crate::library::{Experiment, Library, Shake, with_asymmetry, with_frequency, with_tilt};
-use crate::{Claim, Grid, PaperError, Verdict};
+use crate::fill;
+use crate::library::{Experiment, Library, Shake, with_asymmetry, with_tilt};
+use crate::{Grid, PaperError};
 use slipstick::model::Model;
 use slipstick::motion::{GroundMotion, Sine};
 use slipstick::response::Demands;
@@ -65,14 +66,6 @@ pub struct StartPhase {
     pub half_range_mm: f64,
 }
 
-/// What [`run`] finds.
-pub(crate) struct Offsets {
-    pub rows: Vec<OffsetRow>,
-    pub step_drifts: Vec<StepDrift>,
-    pub start_phases: Vec<StartPhase>,
-    pub claims: Vec<Claim>,
-}
-
 /// The tests that offsets and sensitivities are studied on; the first six come in threes with
 /// the same table motion: no spring, the weak one, the strong one.
 pub(crate) fn studied(library: &Library) -> Result<Vec<Experiment>, PaperError> {
@@ -92,12 +85,7 @@ pub(crate) fn studied(library: &Library) -> Result<Vec<Experiment>, PaperError> 
         "section6-201kg-2_65hz-sine",
         "section6-201kg-1_125hz-taft",
     ] {
-        let mut experiment = library.experiment(id)?.clone();
-        if id.contains("2_65hz") {
-            experiment.model = with_frequency(&experiment.model, FIGURE_11_HZ)?;
-            experiment.name = experiment.name.replace("2.65 Hz", "2.687 Hz");
-        }
-        all.push(experiment);
+        all.push(library.drawn(id)?);
     }
     Ok(all)
 }
@@ -125,7 +113,13 @@ pub(crate) fn disturbed(
     Ok(disturbed.with_tail(experiment.tail_s)?)
 }
 
-pub(crate) fn run(library: &Library, grid: Grid) -> Result<Offsets, PaperError> {
+type Results = (Vec<OffsetRow>, Vec<StepDrift>, Vec<StartPhase>);
+
+pub(crate) fn run(
+    library: &Library,
+    grid: Grid,
+    findings: &mut Vec<Finding>,
+) -> Result<Results, PaperError> {
     let seeds = grid.pick(20, 5);
     let mut rows = Vec::new();
     let mut step_drifts = Vec::new();
@@ -134,9 +128,9 @@ pub(crate) fn run(library: &Library, grid: Grid) -> Result<Offsets, PaperError> 
         step_drifts.push(drift(&experiment)?);
     }
     let (start_phases, start) = start_phases(library)?;
-    let claims =
-        vec![start, tolerance(&rows), integration(&step_drifts), spring(&rows), reproduced(&rows)];
-    Ok(Offsets { rows, step_drifts, start_phases, claims })
+    findings.extend([start, tolerance(&rows), integration(&step_drifts)]);
+    findings.extend([spring(&rows), reproduced(&rows)]);
+    Ok((rows, step_drifts, start_phases))
 }
 
 fn row(experiment: &Experiment, seeds: u64) -> Result<OffsetRow, PaperError> {
@@ -227,7 +221,7 @@ fn drift(experiment: &Experiment) -> Result<StepDrift, PaperError> {
 }
 
 /// The offset that the start of a sine leaves, on the 124 kg block without a spring.
-fn start_phases(library: &Library) -> Result<(Vec<StartPhase>, Claim), PaperError> {
+fn start_phases(library: &Library) -> Result<(Vec<StartPhase>, Finding), PaperError> {
     let test = library.experiment("section3-124kg-free-sine")?;
     let sine = test.sine()?;
     let cycles = sine.duration_s * sine.frequency_hz;
@@ -249,74 +243,26 @@ fn start_phases(library: &Library) -> Result<(Vec<StartPhase>, Claim), PaperErro
     let from_zero = all[0];
     let level = crossing([0.0, 180.0], |phase| Ok::<_, PaperError>(at(phase, 0.0)?.midline_mm))?;
     let ramped = at(0.0, 5.0)?;
-    let claim = Claim::banded(
-        (
-            "fig5-no-offset",
-            "3.2.3",
-            "The software predicts no cumulative offset under the 1.5 Hz sine without a spring \
-             (figure 5)",
-        ),
-        Some(0.0),
-        (from_zero.midline_mm, "mm"),
-        (
-            [-0.1 * from_zero.half_range_mm, 0.1 * from_zero.half_range_mm],
-            "mid-line of the last of 15 cycles at 3 m/s² from rest within a tenth of half the \
-             peak-to-peak",
-        ),
-        |verdict| {
-            let found = format!(
-                "A sine that starts at phase 0 leaves a mid-line of {:.1} mm beside half a \
-                 peak-to-peak of {:.1} mm, on a level table with equal friction both ways",
-                from_zero.midline_mm, from_zero.half_range_mm
-            );
-            match verdict {
-                Verdict::Agrees => format!("{found}."),
-                _ => format!(
-                    "{found}. The start decides it: a table that starts at phase {:.1}° leaves \
-                     none, one that rises over five cycles {:.1} mm. The table's true start is in \
-                     the lost record; the amplitude of 3 m/s² is ours.",
-                    level.unwrap_or(f64::NAN),
-                    ramped.midline_mm
-                ),
-            }
-        },
-    );
-    Ok((all, claim))
+    let finding = Finding::new("fig5-no-offset", from_zero.midline_mm)
+        .within(0.1 * from_zero.half_range_mm)
+        .quoting("half_range", from_zero.half_range_mm)
+        .quoting("phase", level.unwrap_or(f64::NAN))
+        .quoting("ramped", ramped.midline_mm);
+    Ok((all, finding))
 }
 
 fn at(pairs: &[[f64; 2]], level: f64) -> f64 {
     pairs.iter().find(|p| p[0] == level).map_or(f64::NAN, |p| p[1])
 }
 
-fn tolerance(rows: &[OffsetRow]) -> Claim {
+fn tolerance(rows: &[OffsetRow]) -> Finding {
     let free = || rows.iter().filter(|r| r.spring_kn_per_m == 0.0);
     let share = |r: &OffsetRow| 100.0 * (at(&r.tilt, 1.0) / r.peak_mm).abs();
-    let [least, largest] = range(free().map(share));
-    let asymmetry = range(free().map(|r| at(&r.asymmetry, 5.0)));
-    let tilt = range(free().map(|r| at(&r.tilt, 1.0)));
-    Claim::banded(
-        (
-            "offset-tolerances",
-            "3.2.3, 3.2.4, 7.1, 8",
-            "A surface off the level, or friction larger one way than the other, explains the \
-             offsets of tests without a spring",
-        ),
-        None,
-        (least, "%"),
-        (
-            [5.0, f64::INFINITY],
-            "a tilt of 1 mrad changes the residual by at least 5 % of the peak sliding \
-             displacement in every test without a spring",
-        ),
-        |_| {
-            format!(
-                "1 mrad adds {:.1} to {:.1} mm ({least:.0} to {largest:.0} % of the peak), 5 % \
-                 asymmetry {:.1} to {:.1} mm. Either grows with every cycle; an offset that stays \
-                 constant comes from the start (see fig5-no-offset).",
-                tilt[0], tilt[1], asymmetry[0], asymmetry[1]
-            )
-        },
-    )
+    let shares = range(free().map(share));
+    Finding::new("offset-tolerances", shares[0])
+        .quoting("shares", shares)
+        .quoting("tilt", range(free().map(|r| at(&r.tilt, 1.0))))
+        .quoting("asymmetry", range(free().map(|r| at(&r.asymmetry, 5.0))))
 }
 
 /// Largest |stepwise − exact| over the peak at steps up to a limit, in %, and in mm.
@@ -328,7 +274,7 @@ fn added_by_steps(drift: &StepDrift, limit_s: f64) -> [f64; 2] {
     [100.0 * largest / drift.peak_mm, largest]
 }
 
-fn integration(drifts: &[StepDrift]) -> Claim {
+fn integration(drifts: &[StepDrift]) -> Finding {
     let free: Vec<&StepDrift> = drifts.iter().filter(|d| d.spring_kn_per_m == 0.0).collect();
     let largest = |limit_s: f64| {
         free.iter()
@@ -337,32 +283,16 @@ fn integration(drifts: &[StepDrift]) -> Claim {
             .unwrap_or(([f64::NAN; 2], ""))
     };
     let ([percent, mm], name) = largest(COARSE_S);
-    let ([fine, fine_mm], fine_name) = largest(0.002);
-    Claim::banded(
-        (
-            "offset-integration",
-            "7.1, 8",
-            "The integration scheme may account for differences in maximum and cumulative sliding \
-             displacement",
-        ),
-        None,
-        (percent, "%"),
-        (
-            [5.0, f64::INFINITY],
-            "in some test without a spring the stepwise residual differs from the exact one on \
-             the same samples by at least 5 % of the peak, at steps up to 10 ms",
-        ),
-        |_| {
-            format!(
-                "At steps up to 10 ms the largest part is {mm:.2} mm, {percent:.1} % of the peak \
-                 ({name}); up to 2 ms {fine_mm:.2} mm, {fine:.1} % ({fine_name}). The paper does \
-                 not state its step."
-            )
-        },
-    )
+    let ([fine_percent, fine_mm], fine_name) = largest(0.002);
+    Finding::new("offset-integration", percent)
+        .quoting("mm", mm)
+        .quoting("name", name)
+        .quoting("fine_mm", fine_mm)
+        .quoting("fine_percent", fine_percent)
+        .quoting("fine_name", fine_name)
 }
 
-fn spring(rows: &[OffsetRow]) -> Claim {
+fn spring(rows: &[OffsetRow]) -> Finding {
     // Threes with the same table: no spring, weak, strong.
     let mut ratios = Vec::new();
     for three in rows[..6].chunks(3) {
@@ -370,64 +300,22 @@ fn spring(rows: &[OffsetRow]) -> Claim {
         let (free, strong) = (of(&three[0]), of(&three[2]));
         ratios.extend((0..3).map(|i| (strong[i] / free[i]).abs()));
     }
-    let [least, largest] = range(ratios);
-    let mm = |i: usize| at(&rows[i].tilt, 1.0);
-    Claim::banded(
-        (
-            "offset-spring",
-            "abstract, 3.2.4, 8",
-            "A spring between block and table considerably reduces the differences in sliding \
-             displacement",
-        ),
-        None,
-        (largest, ""),
-        (
-            [0.0, 0.5],
-            "with the 143 kN/m spring, 1 mrad, 5 % asymmetry and noise of 0.02 m/s² each change \
-             the residual at most half as much as without, under sine and Taft",
-        ),
-        |_| {
-            format!(
-                "The ratios run from {least:.4} to {largest:.4}. 1 mrad adds {:.2} mm without, \
-                 {:.2} mm on 19.4 kN/m and {:.3} mm on 143 kN/m under the 1.5 Hz sine, {:.2}, \
-                 {:.2} and {:.3} mm under Taft.",
-                mm(0),
-                mm(1),
-                mm(2),
-                mm(3),
-                mm(4),
-                mm(5)
-            )
-        },
-    )
+    let ratios = range(ratios);
+    let tests =
+        ["sine_free", "sine_weak", "sine_strong", "taft_free", "taft_weak", "taft_strong"].iter();
+    let finding = Finding::new("offset-spring", ratios[1]).quoting("ratios", ratios);
+    tests.zip(rows).fold(finding, |finding, (name, row)| finding.quoting(name, at(&row.tilt, 1.0)))
 }
 
-fn reproduced(rows: &[OffsetRow]) -> Claim {
-    let sines = rows[6..9].iter();
-    let text = sines
-        .map(|r| {
-            format!(
-                "{}: {:.1} mm level, {:+.1} to {:+.1} mm for 0.1 to 2 mrad",
-                r.name,
-                r.residual_mm,
-                at(&r.tilt, 0.1),
-                at(&r.tilt, 2.0)
-            )
-        })
-        .collect::<Vec<_>>()
-        .join("; ");
-    Claim::unchecked(
-        (
-            "offset-reproduced",
-            "7.1",
-            "The measured offset is reproduced in figure 10c and not in figures 9c and 11c",
-        ),
-        format!(
-            "The measured sliding displacements are lost with the figures, and neither amplitude \
-             nor tilt of the table is stated. At 1 m/s² the model leaves, with the change by a \
-             tilt: {text}."
-        ),
-    )
+fn reproduced(rows: &[OffsetRow]) -> Finding {
+    let sines = rows[6..9].iter().map(|r| {
+        fill::values([
+            ("name", r.name[..].into()),
+            ("level", r.residual_mm.into()),
+            ("tilted", [at(&r.tilt, 0.1), at(&r.tilt, 2.0)].into()),
+        ])
+    });
+    Finding::unchecked("offset-reproduced").quoting("tests", sines.collect::<Vec<_>>())
 }
 
 #[cfg(test)]

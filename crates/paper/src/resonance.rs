@@ -1,10 +1,10 @@
 //! No amplification near resonance while sliding is free: figures 9, 10 and 11.
 
+use crate::claims::Finding;
 use crate::curves::{at_amplitudes, highest, intervals, linspace};
-use crate::experiments::FIGURE_11_HZ;
-use crate::library::{Experiment, Library, Shake, with_frequency};
+use crate::library::{Experiment, Library, Shake, storey_peak};
 use crate::storey::AMPLITUDES;
-use crate::{Claim, Grid, PaperError};
+use crate::{Grid, PaperError};
 use slipstick::motion::Sine;
 
 /// The largest ratio that is no noticeable amplification.
@@ -31,25 +31,21 @@ pub struct FreeSliding {
 pub(crate) fn run(
     library: &Library,
     grid: Grid,
-) -> Result<(Vec<FreeSliding>, Vec<Claim>), PaperError> {
+    findings: &mut Vec<Finding>,
+) -> Result<Vec<FreeSliding>, PaperError> {
     let amplitudes = linspace(AMPLITUDES[0], AMPLITUDES[1], grid.pick(246, 50));
     let mut all = Vec::new();
-    let mut claims = Vec::new();
     for (figure, id) in [
         (9, "section6-45kg-1_625hz-sine"),
         (10, "section6-201kg-1_125hz-sine"),
         (11, "section6-201kg-2_65hz-sine"),
     ] {
-        let mut experiment = library.experiment(id)?.clone();
-        if figure == 11 {
-            experiment.model = with_frequency(&experiment.model, FIGURE_11_HZ)?;
-        }
-        let test = scan(figure, &experiment, &amplitudes)?;
-        claims.push(claim(&test, "block", &test.block));
-        claims.push(claim(&test, "storey", &test.storey));
+        let test = scan(figure, &library.drawn(id)?, &amplitudes)?;
+        findings.push(found(&test, "block", &test.block));
+        findings.push(found(&test, "storey", &test.storey));
         all.push(test);
     }
-    Ok((all, claims))
+    Ok(all)
 }
 
 fn scan(
@@ -70,45 +66,21 @@ fn scan(
         let demands = Experiment { shake, tail_s: 0.0, ..experiment.clone() }.demands()?;
         let over = |value: f64| [amplitude_m_per_s2, value / amplitude_m_per_s2];
         test.block.push(over(demands.peak_block_acceleration_m_per_s2));
-        let storey = demands.storeys.first().map_or(0.0, |s| s.peak_acceleration_m_per_s2);
-        test.storey.push(over(storey));
+        test.storey.push(over(storey_peak(&demands)));
         test.sliding.push([amplitude_m_per_s2, demands.sliding_time_s / sine.duration_s]);
     }
     Ok(test)
 }
 
-/// Judged over the stated range of amplitudes, as the test's own is not stated.
-fn claim(test: &FreeSliding, what: &str, ratios: &[[f64; 2]]) -> Claim {
-    let worst = highest(ratios).unwrap_or([f64::NAN; 2]);
-    let above = intervals(ratios, |ratio| ratio > NOTICEABLE);
-    let free = test.sliding.iter().find(|s| s[1] >= FREE).map_or(f64::NAN, |s| s[0]);
-    let last = ratios.last().map_or(f64::NAN, |point| point[1]);
+/// Over the stated range of amplitudes, as the test's own is not stated.
+fn found(test: &FreeSliding, part: &str, ratios: &[[f64; 2]]) -> Finding {
+    let largest = highest(ratios).unwrap_or([f64::NAN; 2]);
     let below = ratios.iter().filter(|point| point[1] <= NOTICEABLE).count();
     let share = 100.0 * below as f64 / ratios.len() as f64;
-    let id = format!("fig{}-{what}", test.figure);
-    let text = format!(
-        "Figure {}: the acceleration of the {what} shows no noticeable amplification over that of \
-         the table",
-        test.figure
-    );
-    Claim::banded(
-        (&id, "7.1", &text),
-        None,
-        (share, "%"),
-        (
-            [75.0, 100.0],
-            "peak over table amplitude at most 1.1 on at least three quarters of the range 0.1 to \
-             5 m/s², evenly divided",
-        ),
-        |_| {
-            format!(
-                "From rest the ratio exceeds 1.1 {}; it is {:.2} at most, at {:.2} m/s², and \
-                 {last:.2} at 5 m/s². From {free:.2} m/s² up the block slides for at least half of \
-                 the 20 s. The amplitude of the test is not stated.",
-                at_amplitudes(&above),
-                worst[1],
-                worst[0],
-            )
-        },
-    )
+    Finding::new(format!("fig{}-{part}", test.figure), share)
+        .quoting("above", at_amplitudes(&intervals(ratios, |ratio| ratio > NOTICEABLE)))
+        .quoting("largest", largest[1])
+        .quoting("largest_at", largest[0])
+        .quoting("last", ratios.last().map_or(f64::NAN, |point| point[1]))
+        .quoting("free", test.sliding.iter().find(|s| s[1] >= FREE).map_or(f64::NAN, |s| s[0]))
 }

@@ -1,9 +1,10 @@
 //! Why accelerations agree and displacements do not: what small unknowns change.
 
+use crate::claims::Finding;
 use crate::curves::range;
-use crate::library::{Experiment, Library, with_asymmetry, with_friction, with_tilt};
+use crate::library::{Experiment, Library, storey_peak, with_asymmetry, with_friction, with_tilt};
 use crate::offset::{disturbed, spring_kn_per_m, studied};
-use crate::{Claim, Grid, PaperError, Verdict};
+use crate::{Grid, PaperError};
 use slipstick::response::Demands;
 use slipstick::solver;
 
@@ -46,7 +47,7 @@ impl SensitivityRow {
 pub(crate) fn compared(d: &Demands) -> Compared {
     [
         d.peak_block_acceleration_m_per_s2,
-        d.storeys.first().map_or(0.0, |s| s.peak_acceleration_m_per_s2),
+        storey_peak(d),
         1e3 * d.peak_sliding_displacement_m,
         1e3 * d.residual_sliding_displacement_m,
     ]
@@ -61,14 +62,16 @@ fn change(base: &Compared, other: &Compared) -> Compared {
 pub(crate) fn run(
     library: &Library,
     grid: Grid,
-) -> Result<(Vec<SensitivityRow>, Vec<Claim>), PaperError> {
+    findings: &mut Vec<Finding>,
+) -> Result<Vec<SensitivityRow>, PaperError> {
     let seeds = grid.pick(20, 5);
     let mut rows = Vec::new();
     for experiment in studied(library)? {
         rows.push(row(&experiment, seeds)?);
     }
-    let claims = vec![accelerations(&rows), measured(), design(&rows)];
-    Ok((rows, claims))
+    let measured = Finding::unchecked("measured-agreement");
+    findings.extend([accelerations(&rows), measured, design(&rows)]);
+    Ok(rows)
 }
 
 fn row(experiment: &Experiment, seeds: u64) -> Result<SensitivityRow, PaperError> {
@@ -98,90 +101,23 @@ fn row(experiment: &Experiment, seeds: u64) -> Result<SensitivityRow, PaperError
     Ok(SensitivityRow { name, spring_kn_per_m: spring_kn_per_m(experiment), base, changes })
 }
 
-fn accelerations(rows: &[SensitivityRow]) -> Claim {
-    let free: Vec<&SensitivityRow> = rows.iter().filter(|r| r.spring_kn_per_m == 0.0).collect();
-    let ratio = |r: &&SensitivityRow| r.residual_percent() / r.acceleration_percent();
-    let least = range(free.iter().map(ratio))[0];
-    let accelerations = range(free.iter().map(|r| r.acceleration_percent()));
-    let residuals = range(free.iter().map(|r| r.residual_percent()));
-    let sprung =
-        range(rows.iter().filter(|r| r.spring_kn_per_m > 100.0).map(|r| r.residual_percent()));
-    Claim::banded(
-        (
-            "accelerations-agree",
-            "8",
-            "Accelerations agree in all tests, sliding displacements only in some",
-        ),
-        None,
-        (least, ""),
-        (
-            [3.0, f64::INFINITY],
-            "without a spring, 1 % of friction, 1 mrad, 1 % asymmetry and noise of 0.02 m/s² \
-             change the residual (in % of the peak sliding) at least three times as much as any \
-             peak acceleration (in % of it), in every test",
-        ),
-        |verdict| {
-            let found = format!(
-                "Accelerations change by {:.1} to {:.1} % at most, residuals by {:.1} to {:.1} % \
-                 of the peak sliding, at least {least:.1} times as much; on the 143 kN/m spring \
-                 residuals change by {:.1} to {:.1} %",
-                accelerations[0],
-                accelerations[1],
-                residuals[0],
-                residuals[1],
-                sprung[0],
-                sprung[1]
-            );
-            match verdict {
-                Verdict::Agrees => format!(
-                    "{found}. While the block slides friction caps its acceleration, so that the \
-                     unknowns hardly enter; without a spring nothing calls its position back."
-                ),
-                _ => {
-                    let worst = free
-                        .iter()
-                        .copied()
-                        .reduce(|a, b| if ratio(&b) < ratio(&a) { b } else { a });
-                    let name = worst.map_or("", |row| row.name.as_str());
-                    format!("{found}. The rule is missed by {name}, {:+.1}.", least - 3.0)
-                }
-            }
-        },
-    )
+fn accelerations(rows: &[SensitivityRow]) -> Finding {
+    let free = || rows.iter().filter(|r| r.spring_kn_per_m == 0.0);
+    let strong = rows.iter().filter(|r| r.spring_kn_per_m > 100.0);
+    let ratio = |r: &SensitivityRow| r.residual_percent() / r.acceleration_percent();
+    Finding::new("accelerations-agree", range(free().map(ratio))[0])
+        .quoting("accelerations", range(free().map(SensitivityRow::acceleration_percent)))
+        .quoting("residuals", range(free().map(SensitivityRow::residual_percent)))
+        .quoting("sprung", range(strong.map(SensitivityRow::residual_percent)))
 }
 
-fn measured() -> Claim {
-    Claim::unchecked(
-        (
-            "measured-agreement",
-            "abstract, 8",
-            "Measured accelerations and displacements agree reasonably well with the prediction in \
-             all cases (abstract); sliding displacements only in some (conclusions)",
-        ),
-        "The measured histories are lost with the figures, and no measure of agreement is given. \
-         The two sentences contradict each other for the sliding displacement; what the tests \
-         could tell apart is in the table of sensitivities."
-            .to_owned(),
-    )
-}
-
-fn design(rows: &[SensitivityRow]) -> Claim {
+fn design(rows: &[SensitivityRow]) -> Finding {
     let peak = |r: &SensitivityRow| {
         100.0 * r.changes.iter().map(|c| c[2].abs()).fold(0.0, f64::max) / r.base[2]
     };
     let free = range(rows.iter().filter(|r| r.spring_kn_per_m == 0.0).map(peak));
-    let sprung = range(rows.iter().filter(|r| r.spring_kn_per_m > 0.0).map(peak));
-    Claim::unchecked(
-        (
-            "preliminary-design",
-            "abstract, 8",
-            "The predictions are accurate enough for preliminary design",
-        ),
-        format!(
-            "No accuracy is named. 1 % of friction, 1 mrad, 1 % asymmetry and noise of 0.02 m/s² \
-             change the peak sliding displacement of a test by at most {:.1} to {:.0} % without a \
-             spring and {:.1} to {:.1} % with one, depending on the test.",
-            free[0], free[1], sprung[0], sprung[1]
-        ),
-    )
+    Finding::unchecked("preliminary-design")
+        .quoting("free_least", free[0])
+        .quoting("free_largest", free[1])
+        .quoting("sprung", range(rows.iter().filter(|r| r.spring_kn_per_m > 0.0).map(peak)))
 }

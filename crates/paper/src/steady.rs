@@ -1,7 +1,7 @@
 //! The steady state under a sine: the motion that repeats with the table's period.
 
 use crate::PaperError;
-use crate::library::with_initial;
+use crate::library::{storey_peak, with_initial};
 use slipstick::model::{InitialState, Model};
 use slipstick::motion::{GroundMotion, Sine};
 use slipstick::response::{Demands, Mode};
@@ -39,8 +39,7 @@ pub(crate) struct Steady {
 impl Steady {
     /// Peak storey acceleration in m/s².
     pub fn peak_m_per_s2(&self) -> f64 {
-        let of = |d: &Demands| d.storeys.first().map_or(0.0, |s| s.peak_acceleration_m_per_s2);
-        self.demands.iter().map(of).fold(0.0, f64::max)
+        self.demands.iter().map(storey_peak).fold(0.0, f64::max)
     }
 }
 

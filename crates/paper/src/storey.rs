@@ -1,8 +1,9 @@
 //! Storey displacement against the amplitude of the table: figures 9d and 10d.
 
+use crate::claims::Finding;
 use crate::curves::{at_amplitudes, crossing, highest, intervals, linspace};
 use crate::library::{Experiment, Library, Shake, with_friction};
-use crate::{Claim, Grid, PaperError, Verdict};
+use crate::{Grid, PaperError};
 use slipstick::motion::Sine;
 
 /// Amplitudes of section 6 in m/s².
@@ -29,27 +30,27 @@ pub struct DisplacementCurve {
 pub(crate) fn run(
     library: &Library,
     grid: Grid,
-) -> Result<(Vec<DisplacementCurve>, Vec<Claim>), PaperError> {
+    findings: &mut Vec<Finding>,
+) -> Result<Vec<DisplacementCurve>, PaperError> {
     let amplitudes = linspace(AMPLITUDES[0], AMPLITUDES[1], grid.pick(491, 99));
     let mut curves = Vec::new();
-    for (figure, id, paper_mm) in
-        [(9, "section6-45kg-1_625hz-sine", 6.5), (10, "section6-201kg-1_125hz-sine", 11.0)]
-    {
-        let experiment = library.experiment(id)?;
-        curves.push(DisplacementCurve {
+    for (figure, id, test) in [
+        (9, "storey-6.5", "section6-45kg-1_625hz-sine"),
+        (10, "storey-11", "section6-201kg-1_125hz-sine"),
+    ] {
+        let experiment = library.experiment(test)?;
+        let curve = DisplacementCurve {
             figure,
             name: experiment.name.clone(),
-            paper_mm,
+            paper_mm: library.printed(id)?,
             points: curve(experiment, &amplitudes, 0.0)?,
             from_peak: curve(experiment, &amplitudes, core::f64::consts::FRAC_PI_2)?,
-        });
+        };
+        findings.push(printed(library, id, experiment, &curve)?);
+        curves.push(curve);
     }
-    let claims = vec![
-        claim(library, &curves[0], ("storey-6.5", 0.05), "section6-45kg-1_625hz-sine")?,
-        claim(library, &curves[1], ("storey-11", 0.5), "section6-201kg-1_125hz-sine")?,
-        larger(&curves),
-    ];
-    Ok((curves, claims))
+    findings.push(larger(&curves));
+    Ok(curves)
 }
 
 fn curve(
@@ -68,65 +69,37 @@ fn curve(
     Ok(points)
 }
 
-fn claim(
+/// The printed peak, over all amplitudes.
+fn printed(
     library: &Library,
+    id: &str,
+    experiment: &Experiment,
     curve: &DisplacementCurve,
-    (id, half_unit): (&str, f64),
-    experiment: &str,
-) -> Result<Claim, PaperError> {
-    let paper = curve.paper_mm;
-    let off = |p: &[f64; 2]| (p[1] - paper).abs();
-    let nearest = curve
-        .points
-        .iter()
-        .copied()
-        .reduce(|a, b| if off(&b) < off(&a) { b } else { a })
-        .unwrap_or([f64::NAN; 2]);
-    let inside = intervals(&curve.points, |mm| (mm - paper).abs() <= half_unit);
-    let top = highest(&curve.points).unwrap_or([f64::NAN; 2]);
-    let from_peak = intervals(&curve.from_peak, |mm| (mm - paper).abs() <= half_unit);
-    let top_from_peak = highest(&curve.from_peak).unwrap_or([f64::NAN; 2]);
-    let causes = if inside.is_empty() {
-        needed(library.experiment(experiment)?, paper)?
-    } else {
-        String::new()
-    };
-    let text = format!(
-        "The storey moves {paper} mm at most relative to the block (figure {}d; amplitude of the \
-         table not stated)",
-        curve.figure
-    );
-    Ok(Claim::printed(
-        (id, "7.1", &text),
-        [paper, half_unit],
-        (nearest[1], "mm"),
-        |verdict, difference| {
-            let range = format!(
-                "Amplitudes from 0.1 to 5 m/s² in 20 s from rest give {:.2} mm at most, at {:.2} \
-                 m/s²",
-                top[1], top[0]
-            );
-            let start = format!(
-                "A sine that starts at its peak gives the printed value {} ({:.2} mm at most, at \
-                 {:.2} m/s²)",
-                at_amplitudes(&from_peak),
-                top_from_peak[1],
-                top_from_peak[0],
-            );
-            match verdict {
-                Verdict::Agrees => {
-                    format!("{range}; the printed value {}. {start}.", at_amplitudes(&inside))
-                }
-                _ => format!(
-                    "{range}: {difference:+.2} mm. {start}. The printed value follows from {causes}."
-                ),
-            }
-        },
-    ))
+) -> Result<Finding, PaperError> {
+    let paper_mm = curve.paper_mm;
+    let within_mm = library.claim(id)?.within.unwrap_or(0.0);
+    let off = |p: &[f64; 2]| (p[1] - paper_mm).abs();
+    let none = [f64::NAN; 2];
+    let nearest = curve.points.iter().copied();
+    let nearest = nearest.reduce(|a, b| if off(&b) < off(&a) { b } else { a }).unwrap_or(none);
+    let printed = |points: &[[f64; 2]]| intervals(points, |mm| (mm - paper_mm).abs() <= within_mm);
+    let [largest, from_peak_largest] =
+        [&curve.points, &curve.from_peak].map(|points| highest(points).unwrap_or(none));
+    let finding = Finding::new(id, nearest[1])
+        .quoting("largest", largest[1])
+        .quoting("largest_at", largest[0])
+        .quoting("from_peak", at_amplitudes(&printed(&curve.from_peak)))
+        .quoting("from_peak_largest", from_peak_largest[1])
+        .quoting("from_peak_largest_at", from_peak_largest[0]);
+    let printed = printed(&curve.points);
+    if printed.is_empty() {
+        return needed(finding, experiment, paper_mm);
+    }
+    Ok(finding.quoting("printed_at", at_amplitudes(&printed)))
 }
 
 /// One stated value changed so that the largest peak over all amplitudes is the printed one.
-fn needed(experiment: &Experiment, paper_mm: f64) -> Result<String, PaperError> {
+fn needed(finding: Finding, experiment: &Experiment, paper_mm: f64) -> Result<Finding, PaperError> {
     // The largest peak lies where sliding sets in fully: few amplitudes find it.
     let amplitudes = linspace(0.5, 1.5, 11);
     let largest = |experiment: &Experiment| -> Result<f64, PaperError> {
@@ -135,68 +108,31 @@ fn needed(experiment: &Experiment, paper_mm: f64) -> Result<String, PaperError> 
     let sine = experiment.sine()?;
     let [mu_s, mu_k] =
         [experiment.model.static_friction()[0], experiment.model.kinetic_friction()[0]];
-    let factor = crossing([1.0, 2.0], |factor| {
-        let model = with_friction(&experiment.model, mu_s * factor, mu_k * factor)?;
-        Ok::<_, PaperError>(largest(&experiment.with_model(model))? - paper_mm)
+    let with_friction = |mu_s: f64, mu_k: f64| -> Result<f64, PaperError> {
+        let model = with_friction(&experiment.model, mu_s, mu_k)?;
+        Ok(largest(&experiment.with_model(model))? - paper_mm)
+    };
+    let at = |frequency_hz: f64| -> Result<f64, PaperError> {
+        let shake = Shake::Sine(Sine { frequency_hz, ..sine });
+        largest(&Experiment { shake, ..experiment.clone() })
+    };
+    let factor = crossing([1.0, 2.0], |factor| with_friction(mu_s * factor, mu_k * factor))?;
+    let kinetic = crossing([mu_k, mu_s], |kinetic| with_friction(mu_s, kinetic))?;
+    let slower = crossing([0.9, 1.0], |ratio| {
+        Ok::<_, PaperError>(at(ratio * sine.frequency_hz)? - paper_mm)
     })?;
-    let kinetic = crossing([mu_k, mu_s], |kinetic| {
-        let model = with_friction(&experiment.model, mu_s, kinetic)?;
-        Ok::<_, PaperError>(largest(&experiment.with_model(model))? - paper_mm)
-    })?;
-    let mut causes = Vec::new();
-    if let Some(factor) = factor {
-        causes
-            .push(format!("both coefficients of friction {:.1} % higher", 100.0 * (factor - 1.0)));
-    }
-    if let Some(kinetic) = kinetic {
-        causes.push(format!("a kinetic friction of {kinetic:.4} for {mu_k}"));
-    }
-    for (low, high) in [(0.9, 1.0), (1.0, 1.1)] {
-        let frequency = crossing([low, high], |ratio| {
-            let shake = Shake::Sine(Sine { frequency_hz: ratio * sine.frequency_hz, ..sine });
-            Ok::<_, PaperError>(largest(&Experiment { shake, ..experiment.clone() })? - paper_mm)
-        })?;
-        if let Some(ratio) = frequency {
-            causes.push(format!("a table frequency of {:.3} Hz", ratio * sine.frequency_hz));
-        }
-    }
-    let implied = Sine { frequency_hz: IMPLIED_HZ, ..sine };
-    let implied = Experiment { shake: Shake::Sine(implied), ..experiment.clone() };
-    let at_implied = largest(&implied)?;
-    if causes.is_empty() {
-        return Ok("no single change of friction or of frequency within 10 %".to_owned());
-    }
-    Ok(format!(
-        "{}; the {IMPLIED_HZ} Hz that the printed amplification implies give {at_implied:.2} mm",
-        causes.join(", or from ")
-    ))
+    Ok(finding
+        .quoting("friction_percent", factor.map_or(f64::NAN, |factor| 100.0 * (factor - 1.0)))
+        .quoting("kinetic", kinetic.unwrap_or(f64::NAN))
+        .quoting("kinetic_stated", mu_k)
+        .quoting("table_hz", slower.map_or(f64::NAN, |ratio| ratio * sine.frequency_hz))
+        .quoting("implied_hz", IMPLIED_HZ)
+        .quoting("implied", at(IMPLIED_HZ)?))
 }
 
 /// "Larger than in the previous test", for equal amplitudes.
-fn larger(curves: &[DisplacementCurve]) -> Claim {
-    let ratios: Vec<[f64; 2]> =
-        curves[0].points.iter().zip(&curves[1].points).map(|(a, b)| [a[0], b[1] / a[1]]).collect();
-    let least = ratios
-        .iter()
-        .copied()
-        .reduce(|a, b| if b[1] < a[1] { b } else { a })
-        .unwrap_or([f64::NAN; 2]);
-    Claim::banded(
-        (
-            "storey-larger",
-            "7.1",
-            "The storey of 201 kg at 1.125 Hz moves further than that of 45 kg at 1.625 Hz",
-        ),
-        Some(11.0 / 6.5),
-        (least[1], ""),
-        ([1.0, f64::INFINITY], "the ratio of the peaks is above 1 at every equal amplitude"),
-        |_| {
-            format!(
-                "The ratio is least, {:.2}, at {:.2} m/s²; the printed peaks have {:.2}.",
-                least[1],
-                least[0],
-                11.0 / 6.5
-            )
-        },
-    )
+fn larger(curves: &[DisplacementCurve]) -> Finding {
+    let ratios = curves[0].points.iter().zip(&curves[1].points).map(|(a, b)| [a[0], b[1] / a[1]]);
+    let least = ratios.reduce(|a, b| if b[1] < a[1] { b } else { a }).unwrap_or([f64::NAN; 2]);
+    Finding::new("storey-larger", least[1]).quoting("amplitude", least[0])
 }

@@ -1,7 +1,7 @@
 //! Sliding displacement over records, and spectra of sliding structures for El Centro 1940.
 
 use crate::curves::logspace;
-use crate::library::Library;
+use crate::library::{Library, storey_peak};
 use crate::{Grid, PaperError};
 use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};
 use slipstick::motion::GroundMotion;
@@ -96,7 +96,7 @@ fn spectra(motion: &GroundMotion, grid: Grid) -> Result<Vec<SlidingSpectrum>, Pa
             for &period_s in &periods_s {
                 let model = structure(mass_ratio, friction, period_s)?;
                 let demands = solver::exact_demands(&model, motion)?.demands;
-                let peak = demands.storeys.first().map_or(0.0, |s| s.peak_acceleration_m_per_s2);
+                let peak = storey_peak(&demands);
                 points.push([period_s, peak / pga, demands.peak_sliding_displacement_m]);
             }
             all.push(SlidingSpectrum { mass_ratio, friction, points });

@@ -1,10 +1,13 @@
 //! The amplification window: where sliding makes the storey's response larger.
 
+use crate::claims::Finding;
 use crate::curves::{highest, interval_text, intervals, linspace, logspace, range};
-use crate::library::{Experiment, Library, damping_ratio, fixed, free_free_hz, storey};
+use crate::library::{
+    Experiment, Library, damping_ratio, fixed, free_free_hz, storey, storey_peak,
+};
 use crate::numbers::amplification;
 use crate::steady::{SAMPLES, steady};
-use crate::{Claim, Grid, PaperError, Verdict, WINDOWS, piece};
+use crate::{Grid, PaperError, WINDOWS, piece};
 use slipstick::motion::Sine;
 use slipstick::solver;
 use slipstick::study::engine::Engine;
@@ -25,12 +28,6 @@ const BELOW_ONE: f64 = 0.995;
 
 /// Amplitude in m/s² at which the window is judged: all mock-ups slide, and it is still wide.
 const JUDGED: f64 = 1.0;
-
-/// The highest peak, over the fixed-base frequency, that is slightly higher.
-const SLIGHTLY: f64 = 1.15;
-
-/// The widest window, over the fixed-base frequency, that is relatively narrow.
-const NARROW: f64 = 0.5;
 
 /// Ratios at one frequency of the table.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -129,7 +126,8 @@ pub(crate) fn run(
     library: &Library,
     grid: Grid,
     engine: &Engine<'_>,
-) -> Result<(Vec<Window>, Vec<Claim>), PaperError> {
+    findings: &mut Vec<Finding>,
+) -> Result<Vec<Window>, PaperError> {
     let amplitudes: &[f64] = grid.pick(&[0.1, 0.2, 0.3, 0.5, 1.0, 2.0, 3.0, 5.0], &[0.1, 1.0, 5.0]);
     let each = |experiment| amplitudes.iter().map(move |amplitude| (experiment, *amplitude));
     let pairs: Vec<(&Experiment, f64)> = library.oscillators().flat_map(each).collect();
@@ -139,8 +137,10 @@ pub(crate) fn run(
         Ok(window)
     })?;
     let windows = windows.into_iter().collect::<Result<Vec<_>, PaperError>>()?;
-    let claims = claims(&windows);
-    Ok((windows, claims))
+    findings.extend([generally(&windows), exists(&windows), over_fixed(&windows)]);
+    findings.push(weakest(&windows));
+    findings.extend(windows.chunk_by(|a, b| a.id == b.id).map(slightly_higher));
+    Ok(windows)
 }
 
 fn frequencies(free_free_hz: f64, amplitude: f64, friction: f64, grid: Grid) -> Vec<f64> {
@@ -155,6 +155,19 @@ fn frequencies(free_free_hz: f64, amplitude: f64, friction: f64, grid: Grid) -> 
     all
 }
 
+/// The table of a test from rest.
+fn sine(frequency_hz: f64, amplitude_m_per_s2: f64) -> Sine {
+    Sine {
+        frequency_hz,
+        amplitude_m_per_s2,
+        duration_s: FROM_REST_S,
+        dt_s: 1.0 / (SAMPLES as f64 * frequency_hz),
+        phase_rad: 0.0,
+        ramp_s: 0.0,
+        decay_s: 0.0,
+    }
+}
+
 fn window(experiment: &Experiment, amplitude: f64, grid: Grid) -> Result<Window, PaperError> {
     let model = &experiment.model;
     let (mass_kg, frequency_hz) = storey(model);
@@ -162,24 +175,13 @@ fn window(experiment: &Experiment, amplitude: f64, grid: Grid) -> Result<Window,
     let friction = model.kinetic_friction()[0] * model.gravity_m_per_s2();
     let held = fixed(model)?;
     let damping = damping_ratio(model);
-    let peak = |demands: &slipstick::response::Demands| {
-        demands.storeys.first().map_or(0.0, |s| s.peak_acceleration_m_per_s2)
-    };
     let mut points = Vec::new();
     for table_hz in frequencies(free_free_hz, amplitude, friction, grid) {
-        let sine = Sine {
-            frequency_hz: table_hz,
-            amplitude_m_per_s2: amplitude,
-            duration_s: FROM_REST_S,
-            dt_s: 1.0 / (SAMPLES as f64 * table_hz),
-            phase_rad: 0.0,
-            ramp_s: 0.0,
-            decay_s: 0.0,
-        };
+        let sine = sine(table_hz, amplitude);
         let motion = sine.motion()?;
         let demands = solver::exact_demands(model, &motion)?.demands;
-        let from_rest = peak(&demands);
-        let from_rest_held = peak(&solver::exact_demands(&held, &motion)?.demands);
+        let from_rest = storey_peak(&demands);
+        let from_rest_held = storey_peak(&solver::exact_demands(&held, &motion)?.demands);
         let settled = steady(model, &sine)?;
         let over_table = settled.peak_m_per_s2() / amplitude;
         points.push(Point {
@@ -201,50 +203,18 @@ fn window(experiment: &Experiment, amplitude: f64, grid: Grid) -> Result<Window,
     Ok(Window { id, mass_kg, frequency_hz, free_free_hz, amplitude_m_per_s2, points })
 }
 
-fn claims(windows: &[Window]) -> Vec<Claim> {
-    let mut claims =
-        vec![generally(windows), exists(windows), over_fixed(windows), weakest(windows)];
-    let mut done: Vec<&str> = Vec::new();
-    for window in windows {
-        if !done.contains(&window.id.as_str()) {
-            done.push(&window.id);
-            let of_mock_up: Vec<&Window> = windows.iter().filter(|w| w.id == window.id).collect();
-            claims.push(slightly_higher(&of_mock_up));
-        }
-    }
-    claims
+/// Share in % of the tests over the tested frequencies for which something holds.
+fn share<'a>(windows: impl Iterator<Item = &'a Window>, holds: impl Fn(&Point) -> bool) -> f64 {
+    let inside = |p: &&Point| (TESTED_HZ[0]..=TESTED_HZ[1]).contains(&p.frequency_hz);
+    let points: Vec<&Point> = windows.flat_map(|w| w.points.iter().filter(inside)).collect();
+    100.0 * points.iter().filter(|p| holds(p)).count() as f64 / points.len() as f64
 }
 
-fn generally(windows: &[Window]) -> Claim {
-    let points = || {
-        let inside = |p: &&Point| (TESTED_HZ[0]..=TESTED_HZ[1]).contains(&p.frequency_hz);
-        windows.iter().flat_map(move |w| w.points.iter().filter(inside))
-    };
-    let share = |smaller: fn(&Point) -> bool| {
-        100.0 * points().filter(|p| smaller(p)).count() as f64 / points().count() as f64
-    };
-    let rest = share(|p| p.rest_over_fixed < BELOW_ONE);
-    let steady = share(|p| p.steady_over_fixed < BELOW_ONE);
-    let table = share(|p| p.rest_over_table < BELOW_ONE);
-    Claim::banded(
-        (
-            "sliding-reduces",
-            "abstract",
-            "Sliding generally makes the storey's response smaller, over a wide range of \
-             frequencies",
-        ),
-        None,
-        (rest, "%"),
-        ([50.0, 100.0], "smaller than on a fixed block in more than half of the tests from rest"),
-        |_| {
-            format!(
-                "Over all five oscillators, amplitudes from 0.1 to 5 m/s² and frequencies from 1 to \
-                 3.4 Hz the peak storey acceleration is below that on a fixed block in {rest:.1} % \
-                 of the tests from rest and {steady:.1} % of the steady states; it is below that of \
-                 the table in {table:.1} % of the tests from rest."
-            )
-        },
-    )
+fn generally(windows: &[Window]) -> Finding {
+    let smaller = |ratio: Ratio| share(windows.iter(), |p| ratio(p) < BELOW_ONE);
+    Finding::new("sliding-reduces", smaller(|p| p.rest_over_fixed))
+        .quoting("steady", smaller(|p| p.steady_over_fixed))
+        .quoting("table", smaller(|p| p.rest_over_table))
 }
 
 /// Width in Hz of the window next to the free–free frequency, 0 without one.
@@ -255,162 +225,56 @@ fn width(window: &Window) -> f64 {
     all.iter().find(near).map_or(0.0, |[from, to]| to - from)
 }
 
-fn exists(windows: &[Window]) -> Claim {
+fn exists(windows: &[Window]) -> Finding {
     let judged: Vec<&Window> = windows.iter().filter(|w| w.amplitude_m_per_s2 == JUDGED).collect();
-    let widths: Vec<f64> = judged.iter().map(|w| width(w) / w.frequency_hz).collect();
-    let [least, largest] = range(widths.iter().copied());
-    // No window at all is no narrow window either.
-    let computed = if least > 0.0 { largest } else { f64::INFINITY };
+    let widths = range(judged.iter().map(|w| width(w) / w.frequency_hz));
     let peaks = range(judged.iter().map(|w| w.peak(|p| p.steady_over_table, w.near_hz())[1]));
-    Claim::banded(
-        (
-            "window-over-table",
-            "abstract",
-            "There is a relatively narrow window of frequencies in which the storey's response is \
-             amplified (read as: above that of the table)",
-        ),
-        None,
-        (computed, ""),
-        (
-            [0.0, NARROW],
-            "at 1 m/s² every oscillator has one about its free–free frequency, at most half its \
-             fixed-base frequency wide",
-        ),
-        |_| {
-            format!(
-                "At 1 m/s² the windows of the steady state are {least:.2} to {largest:.2} of the \
-                 fixed-base frequency wide, with peaks of {:.2} to {:.2} times the table.",
-                peaks[0], peaks[1]
-            )
-        },
-    )
+    // No window at all is no narrow window either.
+    Finding::new("window-over-table", if widths[0] > 0.0 { widths[1] } else { f64::INFINITY })
+        .quoting("widths", widths)
+        .quoting("peaks", peaks)
 }
 
-fn over_fixed(windows: &[Window]) -> Claim {
-    let largest = |ratio: Ratio| {
-        windows
-            .iter()
-            .map(|w| (w, w.peak(ratio, w.near_hz())))
-            .reduce(|a, b| if b.1[1] > a.1[1] { b } else { a })
+fn over_fixed(windows: &[Window]) -> Finding {
+    let largest = |ratio: Ratio, band_hz: fn(&Window) -> [f64; 2]| {
+        let peaks = windows.iter().map(|w| (w, w.peak(ratio, band_hz(w))));
+        let (w, [hz, value]) = peaks.reduce(|a, b| if b.1[1] > a.1[1] { b } else { a })?;
+        let (kg, storey_hz, table) = (w.mass_kg, w.frequency_hz, w.amplitude_m_per_s2);
+        let of = format!("{kg:.0} kg at {storey_hz:.3} Hz, {table} m/s², table at {hz:.2} Hz");
+        Some((value, format!("{value:.2} ({of})")))
     };
-    let rest = largest(|p| p.rest_over_fixed);
-    let steady = largest(|p| p.steady_over_fixed);
-    let below = windows
-        .iter()
-        .map(|w| (w, w.peak(|p| p.steady_over_fixed, w.below_hz())))
-        .reduce(|a, b| if b.1[1] > a.1[1] { b } else { a });
-    let text = |found: Option<(&Window, [f64; 2])>| {
-        found.map_or_else(String::new, |(w, [f, value])| {
-            format!(
-                "{value:.2} ({:.0} kg at {:.3} Hz, {} m/s², table at {f:.2} Hz)",
-                w.mass_kg, w.frequency_hz, w.amplitude_m_per_s2
-            )
-        })
-    };
-    let computed = rest.map_or(f64::NAN, |(_, [_, value])| value);
-    Claim::banded(
-        (
-            "window-over-fixed",
-            "abstract",
-            "There is a relatively narrow window of frequencies in which sliding amplifies the \
-             storey's response (read as: above that on a fixed block)",
-        ),
-        None,
-        (computed, ""),
-        (
-            [1.05, f64::INFINITY],
-            "in tests from rest, somewhere above 0.75 of the fixed-base frequency, at least 1.05 \
-             times the response on a fixed block",
-        ),
-        |verdict| {
-            let found = format!(
-                "Above 0.75 f2 the largest ratio is {} from rest and {} in the steady state",
-                text(rest),
-                text(steady)
-            );
-            match verdict {
-                Verdict::Agrees => format!("{found}."),
-                _ => format!(
-                    "{found}: {:+.2} from the rule. A window of this kind is not there; what is \
-                     there is one above the table's acceleration (see window-over-table). \
-                     Sliding does exceed a fixed block below, at odd fractions of the free–free \
-                     frequency: {} in the steady state.",
-                    computed - 1.05,
-                    text(below)
-                ),
-            }
-        },
-    )
+    let none = || (f64::NAN, String::new());
+    let (value, rest) = largest(|p| p.rest_over_fixed, Window::near_hz).unwrap_or_else(none);
+    let steady = |band_hz| largest(|p| p.steady_over_fixed, band_hz).unwrap_or_else(none).1;
+    Finding::new("window-over-fixed", value)
+        .quoting("rest", rest)
+        .quoting("steady", steady(Window::near_hz))
+        .quoting("below", steady(Window::below_hz))
 }
 
 /// Tables of 0.1 m/s² are below μ_s g: only a storey in resonance can start the sliding.
-fn weakest(windows: &[Window]) -> Claim {
+fn weakest(windows: &[Window]) -> Finding {
     let least = windows.iter().map(|w| w.amplitude_m_per_s2).fold(f64::INFINITY, f64::min);
-    let inside = |p: &&Point| (TESTED_HZ[0]..=TESTED_HZ[1]).contains(&p.frequency_hz);
-    let points = || {
-        let weakest = windows.iter().filter(move |w| w.amplitude_m_per_s2 == least);
-        weakest.flat_map(move |w| w.points.iter().filter(inside))
-    };
-    let share = |i: usize| {
-        100.0 * points().filter(|p| p.slides[i]).count() as f64 / points().count() as f64
-    };
-    let (rest, steady) = (share(0), share(1));
-    Claim::banded(
-        ("sliding-at-0.1", "6", "Sliding tests were run with tables from 0.1 m/s² up"),
-        None,
-        (rest, "%"),
-        ([1.0, 100.0], "the block slides in at least 1 % of the tests from rest at 0.1 m/s²"),
-        |_| {
-            format!(
-                "0.1 m/s² is half of μ_s g, and a rigid block would not slide. With the storey's \
-                 help it slides in {rest:.0} % of the tests from rest over 1 to 3.4 Hz and in \
-                 {steady:.0} % of the steady states."
-            )
-        },
-    )
+    let weakest = || windows.iter().filter(|w| w.amplitude_m_per_s2 == least);
+    Finding::new("sliding-at-0.1", share(weakest(), |p| p.slides[0]))
+        .quoting("steady", share(weakest(), |p| p.slides[1]))
 }
 
-fn slightly_higher(of_mock_up: &[&Window]) -> Claim {
+/// Where one mock-up's peak lies.
+fn slightly_higher(of_mock_up: &[Window]) -> Finding {
     let judged = of_mock_up.iter().find(|w| w.amplitude_m_per_s2 == JUDGED);
-    let first = judged.unwrap_or(&of_mock_up[0]);
+    let judged = judged.unwrap_or(&of_mock_up[0]);
     let peak_over_f2 =
         |w: &Window| w.peak(|p| p.steady_over_table, w.near_hz())[0] / w.frequency_hz;
-    let computed = peak_over_f2(first);
-    let [low, high] = range(of_mock_up.iter().map(|w| peak_over_f2(w)));
-    let free_free = first.free_free_hz / first.frequency_hz;
-    let id = format!("window-peak-{:.0}kg-{:.3}Hz", first.mass_kg, first.frequency_hz);
-    let text = format!(
-        "The window's peak lies slightly above the fixed-base frequency (here {:.0} kg at {:.3} Hz)",
-        first.mass_kg, first.frequency_hz
-    );
-    Claim::banded(
-        (&id, "abstract", &text),
-        None,
-        (computed, ""),
-        (
-            [1.0, SLIGHTLY],
-            "steady peak of storey over table at 1 m/s², over the fixed-base frequency, from 1 to \
-             1.15",
-        ),
-        |verdict| {
-            let where_it_lies = format!(
-                "The peak lies at {:.3} Hz; the storey on the freely sliding block has {:.3} Hz, \
-                 {free_free:.3} f2. Over the amplitudes it moves from {low:.3} to {high:.3} f2",
-                computed * first.frequency_hz,
-                first.free_free_hz
-            );
-            match verdict {
-                Verdict::Agrees => format!("{where_it_lies}."),
-                _ => format!(
-                    "{where_it_lies}. It is the free–free frequency f2 √(1 + M2/M1), which {:.0} kg \
-                     put {:.0} % above f2: {:+.3} from the rule's end.",
-                    first.mass_kg,
-                    100.0 * (free_free - 1.0),
-                    computed - SLIGHTLY
-                ),
-            }
-        },
-    )
+    let peak = peak_over_f2(judged);
+    let free_free = judged.free_free_hz / judged.frequency_hz;
+    let id = format!("window-peak-{:.0}kg-{:.3}Hz", judged.mass_kg, judged.frequency_hz);
+    Finding::new(id, peak)
+        .quoting("peak_hz", peak * judged.frequency_hz)
+        .quoting("free_free_hz", judged.free_free_hz)
+        .quoting("free_free", free_free)
+        .quoting("moves", range(of_mock_up.iter().map(peak_over_f2)))
+        .quoting("above_percent", 100.0 * (free_free - 1.0))
 }
 
 #[cfg(test)]
@@ -436,18 +300,6 @@ mod tests {
         let block = Block { mass_kg: 325.0, width_m: None, height_m: None };
         let model = Model::new(block, slider, frame, 9.81, InitialState::rest()).unwrap();
         with_frequency(&model, frequency_hz).unwrap()
-    }
-
-    fn sine(frequency_hz: f64, amplitude: f64) -> Sine {
-        Sine {
-            frequency_hz,
-            amplitude_m_per_s2: amplitude,
-            duration_s: FROM_REST_S,
-            dt_s: 1.0 / (SAMPLES as f64 * frequency_hz),
-            phase_rad: 0.0,
-            ramp_s: 0.0,
-            decay_s: 0.0,
-        }
     }
 
     /// Steady peaks at the frequencies of the reference's peaks, to 1.5 %: it prints the frequency to

@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use slipstick::hash::sha256_hex;
 use slipstick::input::Mapping;
 use slipstick::laboratory::compare::{self, Comparison as Compared, Within};
 use slipstick::laboratory::estimate::Outcome;
@@ -14,10 +13,10 @@ use slipstick::laboratory::measured::Measured;
 use slipstick::record::{Column, Columns};
 use slipstick::requests::{Comparing, Kind};
 use slipstick::table;
-use slipstick_files::{SourceFile, TextFile, expand_all, read_mapping, read_measured};
-use slipstick_report::assessment::{Provenance, Sheet};
+use slipstick_files::{InputFiles, SourceFile, TextFile, expand_all, read_mapping, read_measured};
+use slipstick_report::assessment::Sheet;
 use slipstick_report::laboratory::identify as told;
-use slipstick_report::{CompareReport, DisplayUnits, FileNote, InputText};
+use slipstick_report::{CompareReport, DisplayUnits};
 
 use crate::errors::{of_choice, of_compare, of_file, of_identify, of_laboratory};
 use crate::model::Model;
@@ -68,41 +67,15 @@ impl Columned {
     }
 }
 
-/// What went in, for the report.
-struct Sources {
-    /// Path, hash, and what it is.
-    files: Vec<(String, String, &'static str)>,
-    /// Name and text.
-    texts: Vec<(String, String)>,
-}
-
-impl Sources {
-    fn of(model: Option<&Model>, sources: &[Option<SourceFile>], mapping: &Columned) -> Self {
-        let shown = |file: &SourceFile| file.path.display().to_string();
-        let (mut files, mut texts) = (Vec::new(), Vec::new());
-        if let Some(model) = model {
-            let hash = sha256_hex(model.text().as_bytes());
-            files.push((model.title(), hash, "model"));
-            texts.push((model.title(), model.text().to_owned()));
-        }
-        let measured = sources.iter().flatten();
-        files.extend(measured.map(|file| (shown(file), file.sha256.clone(), "measured")));
-        if let Some(file) = &mapping.file {
-            files.push((shown(&file.source), file.source.sha256.clone(), "mapping"));
-            texts.push((shown(&file.source), file.text.clone()));
-        }
-        Self { files, texts }
-    }
-
-    /// The page of a result.
-    fn page(&self, sheet: &Sheet, command_line: &str) -> String {
-        let note = |(path, sha256, description)| FileNote { path, sha256, description };
-        let files = self.files.iter().map(|(path, hash, what)| note((path, hash, what)));
-        let files: Vec<FileNote<'_>> = files.collect();
-        let inputs = self.texts.iter().map(|(path, text)| InputText { path, text });
-        let inputs: Vec<InputText<'_>> = inputs.collect();
-        sheet.to_html(&Provenance { command_line, files: &files, inputs: &inputs })
-    }
+/// What went in.
+fn inputs(
+    model: Option<&Model>,
+    sources: &[Option<SourceFile>],
+    columned: &Columned,
+) -> InputFiles {
+    let of_model = |model: &Model| InputFiles::model(&model.title(), model.text().as_bytes());
+    let inputs = model.map(of_model).unwrap_or_default();
+    inputs.with_tests(sources.iter().flatten(), columned.file.as_ref())
 }
 
 /// Tables by name.
@@ -124,7 +97,7 @@ pub struct Comparison {
     measured: String,
     comparison: Compared,
     within: Vec<Within>,
-    sources_read: Sources,
+    inputs: InputFiles,
 }
 
 impl Comparison {
@@ -190,7 +163,7 @@ impl Comparison {
 
     fn _report_html(&self, py: Python<'_>, units: &str) -> PyResult<String> {
         let sheet = self.report(display_units(py, units)?, |report| report.sheet());
-        Ok(self.sources_read.page(&sheet, "slipstick.compare(measured, model)"))
+        Ok(self.inputs.page(&sheet, "slipstick.compare(measured, model)"))
     }
 }
 
@@ -214,7 +187,7 @@ pub(crate) fn compare_with(
         measured: measured.source_name,
         comparison: comparison.map_err(|error| of_compare(py, &error))?,
         within,
-        sources_read: Sources::of(Some(&model), &[source], &columned),
+        inputs: inputs(Some(&model), &[source], &columned),
         model,
     })
 }
@@ -225,7 +198,7 @@ pub struct Identified {
     measured: Vec<Measured>,
     found: Estimates,
     model: Option<Model>,
-    sources_read: Sources,
+    inputs: InputFiles,
     call: &'static str,
 }
 
@@ -235,11 +208,11 @@ impl Identified {
         call: &'static str,
         measured: Vec<Measured>,
         found: Result<Estimates, IdentifyError>,
-        sources_read: Sources,
+        inputs: InputFiles,
     ) -> PyResult<Self> {
         let found = found.map_err(|error| of_identify(py, &error))?;
         let model = found.model.clone().map(Model::of);
-        Ok(Self { measured, found, model, sources_read, call })
+        Ok(Self { measured, found, model, inputs, call })
     }
 
     fn sheet(&self, display: DisplayUnits) -> Sheet {
@@ -311,7 +284,7 @@ impl Identified {
     }
 
     fn _report_html(&self, py: Python<'_>, units: &str) -> PyResult<String> {
-        Ok(self.sources_read.page(&self.sheet(display_units(py, units)?), self.call))
+        Ok(self.inputs.page(&self.sheet(display_units(py, units)?), self.call))
     }
 }
 
@@ -348,11 +321,11 @@ pub(crate) fn identify(
     let on = model.as_ref();
     let on = on.map(|model| ModelText { name: &model.source, text: model.text(), set: &[] });
     let found = followed(py, jobs, progress, |engine| asked.identify(on, &measured, engine))?;
-    let sources_read = Sources::of(model.as_ref(), &sources, &columned);
+    let inputs = inputs(model.as_ref(), &sources, &columned);
     let call = match asked.kind() {
         Kind::Cyclic => "slipstick.identify.cyclic(tests)",
         Kind::FreeVibration => "slipstick.identify.free_vibration(measured)",
         _ => "slipstick.identify.shaking_table(measured, model, fit)",
     };
-    Identified::new(py, call, measured, found, sources_read)
+    Identified::new(py, call, measured, found, inputs)
 }

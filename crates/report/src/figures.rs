@@ -8,6 +8,7 @@ mod plane;
 mod spectra;
 mod trace;
 
+pub(crate) use histories::marked;
 pub(crate) use trace::Trace;
 
 use slipstick::response::{History, Mode};

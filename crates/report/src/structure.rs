@@ -3,10 +3,11 @@
 use slipstick::error::visible;
 use slipstick::input::{ModalTable, Share};
 
+use crate::assessment::lines::{line, panel};
 use crate::display::{DisplayUnits, Quantity};
 use crate::json::Json;
 use crate::number::significant;
-use crate::plot::{Axis, Figure, Layout, Panel, Series, Shape, Style, Svg, column};
+use crate::plot::{Axis, Figure, Layout, Panel, Series, Style, Svg, column};
 
 const AXES: [&str; 2] = ["x", "y"];
 
@@ -198,7 +199,7 @@ impl ModalInfo<'_> {
                     String::new()
                 };
                 let points = std::iter::once([0.0, 0.0]).chain(at).collect();
-                Series { label, style, shape: Shape::Curve, points }
+                line(label, style, points)
             })
         };
         let mut lines: Vec<Series> =
@@ -210,19 +211,9 @@ impl ModalInfo<'_> {
             point[0] *= scale;
         }
         let row = &table.modes[mode];
-        Panel {
-            x: Axis::linear(
-                format!("Mode {}, {} s", mode + 1, significant(row.period_s, 4)),
-                -1.1,
-                1.1,
-            ),
-            y: Axis::linear("Point", 0.0, table.points.len() as f64),
-            height: 190.0,
-            series: lines,
-            limits: Vec::new(),
-            peak: None,
-            note: String::new(),
-        }
+        let label = format!("Mode {}, {} s", mode + 1, significant(row.period_s, 4));
+        let points = Axis::linear("Point", 0.0, table.points.len() as f64);
+        panel(Axis::linear(label, -1.1, 1.1), points, 190.0, lines)
     }
 }
 

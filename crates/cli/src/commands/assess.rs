@@ -1,6 +1,6 @@
 //! `slipstick spectrum`, `ida`, `design` and `fragility`: a request in, an answer out.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 use std::time::Duration;
 
@@ -9,15 +9,15 @@ use slipstick::hash::sha256_hex;
 use slipstick::requests::{Curves, Results, Runs};
 use slipstick::study::engine::Engine;
 use slipstick_files::{
-    ReadTable, files_of_runs, limit_of_ida, on_threads, read_bytes, read_csv, read_runs,
-    read_table, reading_time, time_left,
+    InputFiles, ReadTable, files_of_runs, limit_of_ida, on_threads, read_bytes, read_csv,
+    read_runs, read_table, reading_time, time_left,
 };
 
 use crate::args::{AssessArgs, FragilityArgs};
 use crate::failure::Failure;
 use crate::opened::Opened;
 use crate::progress::{TRIAL, counted, estimated};
-use crate::results::{Source, folder, tell};
+use crate::results::{folder, tell};
 
 /// Runs, prints and writes; status 1 where a run has no answer, or no design is found.
 pub fn assess<const KIND: usize>(args: &AssessArgs<KIND>) -> Result<ExitCode, Failure> {
@@ -26,7 +26,7 @@ pub fn assess<const KIND: usize>(args: &AssessArgs<KIND>) -> Result<ExitCode, Fa
     let result = &args.suite.result;
     let folder = opened.folder(result)?;
     let answer = opened.compute(&args.suite, |engine| asked.run(&opened.on(), engine))?;
-    tell(result, folder, answer, &opened.sources(), &opened.inputs())
+    tell(result, folder, answer, &opened.inputs())
 }
 
 /// Fits, prints and writes.
@@ -34,8 +34,7 @@ pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
     let asked = args.fields.asked()?;
     let quiet = args.result.quiet;
     let estimate = || reading_left(&args.source);
-    let (mut sources, read) = estimated("reading", quiet, &estimate, || read(&args.source))?;
-    let inputs: Vec<PathBuf> = sources.iter().map(|(path, ..)| path.into()).collect();
+    let (mut inputs, read) = estimated("reading", quiet, &estimate, || read(&args.source))?;
     let runs = Runs {
         name: &args.source.display().to_string(),
         source: &read.path.display().to_string(),
@@ -48,12 +47,12 @@ pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
         other => other.into(),
     })?;
     if let Results::Fragility { curves: Curves::One(run), .. } = &answer.found
-        && let Some((.., kind)) = sources.first_mut()
+        && let Some((.., kind)) = inputs.files.first_mut()
     {
         run.kind.name().clone_into(kind);
     }
-    let folder = folder(&args.result, &inputs)?;
-    tell(&args.result, folder, answer, &sources, &[])
+    let folder = folder(&args.result, &inputs.paths())?;
+    tell(&args.result, folder, answer, &inputs)
 }
 
 /// Time that reading a source may take, from its first lines or its first parts.
@@ -68,12 +67,12 @@ fn reading_left(source: &Path) -> Option<Duration> {
 }
 
 /// The table of a source, and its files with their hashes.
-fn read(source: &Path) -> Result<(Vec<Source>, ReadTable), Failure> {
+fn read(source: &Path) -> Result<(InputFiles, ReadTable), Failure> {
     let files = files_of_runs(source)?;
-    let mut sources = Vec::with_capacity(files.len());
+    let mut inputs = InputFiles::default();
     for path in &files {
         let sha256 = sha256_hex(&read_bytes(path)?);
-        sources.push((path.display().to_string(), sha256, "runs".to_owned()));
+        inputs.files.push((path.display().to_string(), sha256, "runs".to_owned()));
     }
-    Ok((sources, read_runs(&files)?))
+    Ok((inputs, read_runs(&files)?))
 }

@@ -13,7 +13,7 @@ use crate::args::CompareArgs;
 use crate::failure::{Failure, say};
 use crate::model_file::read_model;
 use crate::progress::{TRIAL, estimated, reading};
-use crate::results::{Inputs, Written, conclude, folder};
+use crate::results::{Written, conclude, folder};
 
 /// Compares, prints and writes; status 1 where a bound is missed.
 pub fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
@@ -27,8 +27,7 @@ pub fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let piece = |bytes: &[u8]| drop(Measured::read("", bytes, &mapping));
     let read = || read_measured(&args.measured, &mapping);
     let (measured, source) = reading(Some(&args.measured), args.result.quiet, &piece, read)?;
-    let inputs =
-        Inputs { model: Some(&model), measured: &[&source], mapping: mapping_file.as_ref() };
+    let inputs = model.inputs().with_tests([&source], mapping_file.as_ref());
     let folder = folder(&args.result, &inputs.paths())?;
     let work = |measured: &Measured| compared(measured, &analysis.model, analysis.method);
     let first = |samples| work(&measured.first(samples)).ok().map(|_| ());
@@ -47,8 +46,7 @@ pub fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
         display: args.result.display_units,
     };
     let written = Written { folder, json: "comparison.json", more: &[], replaces: &[] };
-    let status =
-        conclude(&args.result, written, &report.sheet(), &[], &inputs.sources(), &inputs.texts())?;
+    let status = conclude(&args.result, written, &report.sheet(), &[], &inputs)?;
     for bound in report.missed() {
         say(format_args!("missed: {}", bound.name()));
     }

@@ -5,13 +5,13 @@ use std::process::ExitCode;
 
 use slipstick::input;
 use slipstick::requests::{Kind, On};
-use slipstick_files::{read_target, stems_or_paths};
+use slipstick_files::{InputFiles, read_target, stems_or_paths};
 
 use crate::args::RunArgs;
 use crate::failure::Failure;
 use crate::model_file::read_model;
 use crate::opened::{Opened, open_records};
-use crate::results::{Source, folder, tell};
+use crate::results::{folder, tell};
 
 /// Runs, prints and writes; status 1 where a certificate does not hold.
 pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
@@ -47,14 +47,17 @@ pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
     let of_target = |(path, _, sha256): &(String, _, String)| {
         (path.clone(), sha256.clone(), "target spectrum".to_owned())
     };
-    let mut sources: Vec<Source> = target.iter().map(of_target).collect();
-    for source in opened.iter().flat_map(Opened::sources) {
-        if !sources.contains(&source) {
-            sources.push(source);
+    let mut inputs = InputFiles::default();
+    inputs.files.extend(target.iter().map(of_target));
+    for InputFiles { files, texts } in opened.iter().map(Opened::inputs) {
+        for file in files {
+            if !inputs.files.contains(&file) {
+                inputs.files.push(file);
+            }
         }
+        inputs.texts.extend(texts);
     }
-    let inputs: Vec<PathBuf> = sources.iter().map(|(path, ..)| path.into()).collect();
-    let folder = folder(&suite.result, &inputs)?;
+    let folder = folder(&suite.result, &inputs.paths())?;
     let names = names(&opened);
     let on: Vec<On<'_>> =
         opened.iter().zip(&names).map(|(opened, name)| On { name, ..opened.on() }).collect();
@@ -64,8 +67,7 @@ pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
         let target = target.as_ref().map(|(path, spectrum)| (path.as_str(), spectrum.clone()));
         asked.suite(&on, target, engine)
     })?;
-    let texts: Vec<(String, String)> = opened.iter().flat_map(Opened::inputs).collect();
-    tell(&suite.result, folder, answer, &sources, &texts)
+    tell(&suite.result, folder, answer, &inputs)
 }
 
 /// Names of the models: of several the stems of their files, or their paths where stems repeat.

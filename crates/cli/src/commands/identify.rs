@@ -9,8 +9,8 @@ use slipstick::laboratory::measured::Measured;
 use slipstick::requests::{Kind, Request};
 use slipstick::study::engine::Engine;
 use slipstick_files::{
-    LaboratoryError, OutputFolder, SourceFile, expand_all, on_threads, read_mapping, read_measured,
-    time_left,
+    InputFiles, LaboratoryError, OutputFolder, SourceFile, expand_all, on_threads, read_mapping,
+    read_measured, time_left,
 };
 use slipstick_report::laboratory::identify;
 
@@ -18,7 +18,7 @@ use crate::args::{IdentifyCommand, ResultArgs, TestArgs};
 use crate::failure::Failure;
 use crate::model_file::{ModelFile, overrides, read_model};
 use crate::progress::{TRIAL, counted, estimated, reading};
-use crate::results::{Inputs, Written, conclude, folder};
+use crate::results::{Written, conclude, folder};
 
 /// Runs one of the three jobs.
 pub fn identify(command: &IdentifyCommand) -> Result<ExitCode, Failure> {
@@ -69,11 +69,8 @@ impl<'a> Job<'a> {
         let files = expand_all(Path::new(""), self.files)?;
         let read: Result<Vec<_>, _> = files.iter().map(read).collect();
         let (measured, sources): (Vec<Measured>, Vec<SourceFile>) = read?.into_iter().unzip();
-        let inputs = Inputs {
-            model: model.as_ref(),
-            measured: &sources.iter().collect::<Vec<_>>(),
-            mapping: mapping_file.as_ref(),
-        };
+        let inputs = model.as_ref().map(ModelFile::inputs).unwrap_or_default();
+        let inputs = inputs.with_tests(&sources, mapping_file.as_ref());
         let folder = folder(self.result, &inputs.paths())?;
         let on = model.as_ref().zip(text.as_deref());
         let on = on.map(|(model, text)| ModelText { name: &model.name, text, set: &set });
@@ -141,12 +138,12 @@ fn failure(error: IdentifyError, model: &str) -> Failure {
 fn finish(
     args: &ResultArgs,
     folder: Option<OutputFolder>,
-    inputs: &Inputs<'_>,
+    inputs: &InputFiles,
     measured: &[Measured],
     identified: &Identified,
 ) -> Result<ExitCode, Failure> {
     let sheet = identify::sheet(measured, identified, args.display_units);
     let more = identified.files();
     let written = Written { folder, json: "identified.json", more: &more, replaces: &[] };
-    conclude(args, written, &sheet, &[], &inputs.sources(), &inputs.texts())
+    conclude(args, written, &sheet, &[], inputs)
 }

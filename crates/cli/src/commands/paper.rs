@@ -6,8 +6,8 @@ use std::process::ExitCode;
 use slipstick::motion::GroundMotion;
 use slipstick::study::engine::Engine;
 use slipstick_files::{FileError, OutputFolder, folder_records, on_threads};
-use slipstick_paper::chapter::{chapter, claims_json, listing};
-use slipstick_paper::{Grid, Paper, PaperError, paper_library, reproduce};
+use slipstick_paper::chapter::{Chapter, chapter, claims_json, listing};
+use slipstick_paper::{Grid, PaperError, paper_library, reproduce};
 
 use crate::args::PaperArgs;
 use crate::failure::{Failure, print, say};
@@ -27,7 +27,8 @@ pub fn paper(args: &PaperArgs) -> Result<ExitCode, Failure> {
     };
     let result = counted("computing", args.quiet, work).map_err(failed)?;
     if let Some([out, figures]) = folders {
-        write(&result, out, figures)?;
+        let chapter = chapter(&result).map_err(failed)?;
+        write(&chapter, &claims_json(&result), out, figures)?;
     }
     if args.json {
         print(&claims_json(&result))?;
@@ -64,13 +65,13 @@ fn folders(out: &Path) -> Result<[OutputFolder; 2], FileError> {
 }
 
 fn write(
-    result: &Paper,
+    chapter: &Chapter,
+    claims: &str,
     mut out: OutputFolder,
     mut figures: OutputFolder,
 ) -> Result<(), FileError> {
-    let chapter = chapter(result);
     out.write("chapter.md", chapter.markdown.as_bytes())?;
-    out.write("claims.json", claims_json(result).as_bytes())?;
+    out.write("claims.json", claims.as_bytes())?;
     for (name, svg) in &chapter.figures {
         figures.write(name, svg.as_str().as_bytes())?;
     }

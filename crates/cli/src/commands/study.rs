@@ -8,13 +8,11 @@ use std::time::Duration;
 use slipstick::study::StudySummary;
 use slipstick::study::engine::Engine;
 use slipstick_files::{
-    FileError, OpenStudy, OutputFolder, STUDY_REPORT, Shard, StudyError, clear, conclude, estimate,
-    has_parts, kept_runs, merge, on_threads, part_rows, quoted, read_bytes,
+    FileError, InputFiles, OpenStudy, OutputFolder, STUDY_REPORT, Shard, StudyError, clear,
+    conclude, estimate, has_parts, kept_runs, merge, on_threads, part_rows, quoted, read_bytes,
 };
-use slipstick_report::assessment::Provenance;
 use slipstick_report::number::count;
 use slipstick_report::study::{StudyReport, said, table};
-use slipstick_report::{FileNote, InputText};
 
 use crate::args::{StudyArgs, StudyCommand};
 use crate::failure::{Failure, print, say};
@@ -152,18 +150,13 @@ fn report(
     };
     let what = |i: usize| ["plan", "model"].get(i).copied().unwrap_or("record");
     let named = study.inputs.iter().enumerate();
-    let files: Vec<FileNote<'_>> =
-        named.map(|(i, (path, sha256))| FileNote { path, sha256, description: what(i) }).collect();
+    let named = named.map(|(i, (path, sha256))| (path.clone(), sha256.clone(), what(i).to_owned()));
     let model = String::from_utf8_lossy(&read_bytes(&study.model_path)?).into_owned();
-    let inputs = [&study.plan_text, &model];
-    let inputs: Vec<InputText<'_>> = inputs
-        .iter()
-        .zip(&study.inputs)
-        .map(|(text, (path, _))| InputText { path, text })
-        .collect();
-    let provenance = Provenance { command_line: &command_line(), files: &files, inputs: &inputs };
+    let texts = [study.plan_text.clone(), model].into_iter().zip(&study.inputs);
+    let texts = texts.map(|(text, (path, _))| (path.clone(), text)).collect();
+    let inputs = InputFiles { files: named.collect(), texts };
     let mut folder = OutputFolder::create(out, &[])?;
-    folder.write(STUDY_REPORT, page.sheet().to_html(&provenance).as_bytes())?;
+    folder.write(STUDY_REPORT, inputs.page(&page.sheet(), &command_line()).as_bytes())?;
     Ok(folder.commit()?)
 }
 

@@ -147,6 +147,25 @@ fn slider(p: &Value, friction: impl Fn(&str) -> String) -> String {
     text
 }
 
+/// Makes the times of a case's states samples on the straight lines of a record, and cuts it at the case's end.
+pub fn sample_at_states(case: &Value, columns: &mut [Vec<f64>]) {
+    let states = case["states"].as_array().unwrap().iter().map(|state| number(&state["t"]));
+    let end_s = case["t_end"].as_f64();
+    for time_s in states.chain(end_s) {
+        if let Err(i) = columns[0].binary_search_by(|t| t.total_cmp(&time_s))
+            && i < columns[0].len()
+        {
+            let x = (time_s - columns[0][i - 1]) / (columns[0][i] - columns[0][i - 1]);
+            for column in columns.iter_mut() {
+                column.insert(i, column[i - 1] + (column[i] - column[i - 1]) * x);
+            }
+            columns[0][i] = time_s;
+        }
+    }
+    let count = columns[0].iter().filter(|t| end_s.is_none_or(|end_s| **t <= end_s)).count();
+    columns.iter_mut().for_each(|column| column.truncate(count));
+}
+
 /// The record, with the times of the states as samples on its straight lines, up to the case's end.
 fn record(case: &Value) -> String {
     let input = &case["input"];
@@ -156,29 +175,7 @@ fn record(case: &Value) -> String {
         columns.push(numbers(&input["av"]));
         text.push_str(",vertical_acceleration_m_per_s2");
     }
-    for state in case["states"].as_array().unwrap() {
-        let time_s = number(&state["t"]);
-        if let Err(i) = columns[0].binary_search_by(|t| t.total_cmp(&time_s)) {
-            let x = (time_s - columns[0][i - 1]) / (columns[0][i] - columns[0][i - 1]);
-            for column in &mut columns {
-                column.insert(i, column[i - 1] + (column[i] - column[i - 1]) * x);
-            }
-            columns[0][i] = time_s;
-        }
-    }
-    if let Some(end_s) = case["t_end"].as_f64() {
-        if let Err(i) = columns[0].binary_search_by(|t| t.total_cmp(&end_s))
-            && i < columns[0].len()
-        {
-            let x = (end_s - columns[0][i - 1]) / (columns[0][i] - columns[0][i - 1]);
-            for column in &mut columns {
-                column.insert(i, column[i - 1] + (column[i] - column[i - 1]) * x);
-            }
-            columns[0][i] = end_s;
-        }
-        let count = columns[0].iter().filter(|t| **t <= end_s).count();
-        columns.iter_mut().for_each(|column| column.truncate(count));
-    }
+    sample_at_states(case, &mut columns);
     for i in 0..columns[0].len() {
         let row: Vec<String> = columns.iter().map(|column| format!("{:?}", column[i])).collect();
         write!(text, "\n{}", row.join(",")).unwrap();

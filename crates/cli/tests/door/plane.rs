@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use serde_json::Value;
 
-use super::cases::{name, number, numbers};
+use super::cases::{name, number, numbers, sample_at_states};
 use super::support::{Folder, cells, column, text};
 
 fn model(case: &Value) -> String {
@@ -75,21 +75,7 @@ fn samples(case: &Value) -> Vec<Vec<f64>> {
     let input = &case["input"];
     let names = ["t", "ax", "ay", "av"].into_iter().filter(|name| input[name].is_array());
     let mut columns: Vec<Vec<f64>> = names.map(|name| numbers(&input[name])).collect();
-    let states = case["states"].as_array().unwrap().iter().map(|state| number(&state["t"]));
-    let end_s = number(&case["t_end"]);
-    for time_s in states.chain([end_s]) {
-        if let Err(i) = columns[0].binary_search_by(|t| t.total_cmp(&time_s))
-            && i < columns[0].len()
-        {
-            let x = (time_s - columns[0][i - 1]) / (columns[0][i] - columns[0][i - 1]);
-            for column in &mut columns {
-                column.insert(i, column[i - 1] + (column[i] - column[i - 1]) * x);
-            }
-            columns[0][i] = time_s;
-        }
-    }
-    let count = columns[0].iter().filter(|t| **t <= end_s).count();
-    columns.iter_mut().for_each(|column| column.truncate(count));
+    sample_at_states(case, &mut columns);
     columns
 }
 

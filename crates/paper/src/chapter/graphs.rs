@@ -1,6 +1,8 @@
 //! Curves over amplitude, frequency, phase, friction and period.
 
-use crate::{DisplacementCurve, FreeSliding, Paper, Ratio, SCANNED_HZ, StartPhase, Window};
+use crate::{
+    DisplacementCurve, FreeSliding, Paper, Ratio, SCANNED_HZ, StartPhase, SuiteRow, Window,
+};
 
 use slipstick_report::number::compact;
 use slipstick_report::plot::{Axis, Figure, Layout, Limit, Panel, Series, Shape, Style};
@@ -23,16 +25,28 @@ fn limit(value: f64) -> Limit {
     Limit { value, label: String::new(), style: Style::LIMIT }
 }
 
-fn values(series: &[Series]) -> impl Iterator<Item = f64> {
+pub fn values(series: &[Series]) -> impl Iterator<Item = f64> {
     series.iter().flat_map(|s| s.points.iter().map(|p| p[1]))
 }
 
-fn panel(x: Axis, y: Axis, height: f64, series: Vec<Series>, limits: Vec<Limit>) -> Panel {
+pub fn panel(x: Axis, y: Axis, height: f64, series: Vec<Series>, limits: Vec<Limit>) -> Panel {
     Panel { x, y, height, series, limits, peak: None, note: String::new() }
 }
 
+pub fn figure(
+    id: &'static str,
+    layout: Layout,
+    title: impl Into<String>,
+    description: impl Into<String>,
+    panels: impl IntoIterator<Item = Panel>,
+) -> Figure {
+    let (title, description) = (title.into(), description.into());
+    let panels = panels.into_iter().collect();
+    Figure { id, title, description, layout, panels, shaded: Vec::new() }
+}
+
 /// Storey displacement against amplitude, figures 9d and 10d.
-pub fn displacements(curves: &[DisplacementCurve]) -> Figure {
+fn displacements(curves: &[DisplacementCurve]) -> Figure {
     let panels = curves.iter().map(|curve| {
         let series = vec![
             line("from 0", 0, curve.points.clone()),
@@ -45,20 +59,18 @@ pub fn displacements(curves: &[DisplacementCurve]) -> Figure {
         let x = Axis::logarithmic("Amplitude of the table (m/s²)", 0.1, 5.0);
         panel(x, y, 170.0, series, vec![limit(curve.paper_mm)])
     });
-    Figure {
-        id: "paper-storey-displacement",
-        title: "Peak storey displacement against the amplitude of the table".to_owned(),
-        description: "Peaks of 20 s from rest for a sine that starts at phase 0 and for one that \
-                      starts at its peak, beside the printed value."
-            .to_owned(),
-        layout: Layout::Beside,
-        panels: panels.collect(),
-        shaded: Vec::new(),
-    }
+    figure(
+        "paper-storey-displacement",
+        Layout::Beside,
+        "Peak storey displacement against the amplitude of the table",
+        "Peaks of 20 s from rest for a sine that starts at phase 0 and for one that \
+         starts at its peak, beside the printed value.",
+        panels,
+    )
 }
 
 /// Accelerations over that of the table, figures 9 to 11.
-pub fn free_sliding(tests: &[FreeSliding]) -> Figure {
+fn free_sliding(tests: &[FreeSliding]) -> Figure {
     let panels = tests.iter().map(|test| {
         let series =
             vec![line("block", 0, test.block.clone()), line("storey", 1, test.storey.clone())];
@@ -67,24 +79,43 @@ pub fn free_sliding(tests: &[FreeSliding]) -> Figure {
         let x = Axis::logarithmic("Table (m/s²)", 0.1, 5.0);
         panel(x, y, 150.0, series, vec![limit(1.0)])
     });
-    Figure {
-        id: "paper-no-amplification",
-        title: "Peak acceleration over that of the table against its amplitude".to_owned(),
-        description:
-            "Block and storey in 20 s from rest, for the mock-ups of figures 9, 10 and 11."
-                .to_owned(),
-        layout: Layout::Beside,
-        panels: panels.collect(),
-        shaded: Vec::new(),
-    }
+    figure(
+        "paper-no-amplification",
+        Layout::Beside,
+        "Peak acceleration over that of the table against its amplitude",
+        "Block and storey in 20 s from rest, for the mock-ups of figures 9, 10 and 11.",
+        panels,
+    )
 }
 
 /// Amplitudes drawn for a window, in m/s².
 const DRAWN: [f64; 3] = [0.1, 1.0, 5.0];
 
+/// Identifiers of the windows, one a mock-up in their order.
+const WINDOWS: [&str; 5] =
+    ["paper-window-1", "paper-window-2", "paper-window-3", "paper-window-4", "paper-window-5"];
+
+/// The windows of each mock-up, with the first of them.
+pub fn windows(paper: &Paper) -> Vec<(&Window, Figure)> {
+    let mock_ups = paper.windows.chunk_by(|a, b| a.id == b.id).zip(WINDOWS);
+    mock_ups.map(|(of_mock_up, id)| (&of_mock_up[0], window(id, of_mock_up))).collect()
+}
+
+/// The figures that stand alone.
+pub fn single(paper: &Paper) -> [Figure; 6] {
+    [
+        displacements(&paper.displacements),
+        free_sliding(&paper.free_sliding),
+        start_phase(&paper.start_phases),
+        suite(paper),
+        spectra(paper, false),
+        spectra(paper, true),
+    ]
+}
+
 /// The four ratios of one mock-up over frequency.
-pub fn window(id: &'static str, of_mock_up: &[&Window]) -> Option<Figure> {
-    let first = of_mock_up.first()?;
+fn window(id: &'static str, of_mock_up: &[Window]) -> Figure {
+    let first = &of_mock_up[0];
     let ratios: [(&str, Ratio); 4] = [
         ("Storey over table, 20 s from rest", |p| p.rest_over_table),
         ("Storey over table, steady", |p| p.steady_over_table),
@@ -116,24 +147,22 @@ pub fn window(id: &'static str, of_mock_up: &[&Window]) -> Option<Figure> {
         let x = Axis::logarithmic("Frequency of the table (Hz)", from_hz, to_hz);
         panel(x, Axis::logarithmic(label, low, high), 112.0, series, vec![limit(1.0)])
     });
-    Some(Figure {
+    figure(
         id,
-        title: format!(
+        Layout::Stacked,
+        format!(
             "Amplification against frequency, {} kg at {} Hz",
             compact(first.mass_kg),
             compact((first.frequency_hz * 1e4).round() / 1e4)
         ),
-        description: "Peak storey acceleration over that of the table and over that of the same \
-                      storey on a fixed block, from rest and steady, for three amplitudes."
-            .to_owned(),
-        layout: Layout::Stacked,
-        panels: panels.collect(),
-        shaded: Vec::new(),
-    })
+        "Peak storey acceleration over that of the table and over that of the same \
+         storey on a fixed block, from rest and steady, for three amplitudes.",
+        panels,
+    )
 }
 
 /// Mid-line against the phase at which the sine starts.
-pub fn start_phase(phases: &[StartPhase]) -> Figure {
+fn start_phase(phases: &[StartPhase]) -> Figure {
     let points: Vec<[f64; 2]> = phases
         .iter()
         .filter(|p| p.ramp_cycles == 0.0)
@@ -145,28 +174,19 @@ pub fn start_phase(phases: &[StartPhase]) -> Figure {
         values(&series).chain([0.0]).collect::<Vec<_>>(),
     );
     let x = Axis::linear("Phase at which the sine starts (degrees)", 0.0, 180.0);
-    Figure {
-        id: "paper-start-phase",
-        title: "Offset against the phase at which the table starts".to_owned(),
-        description:
-            "Mid-line of the sliding displacement in the 15th cycle of 1.5 Hz, 3 m/s², on a \
-                      level table with equal friction both ways."
-                .to_owned(),
-        layout: Layout::Stacked,
-        panels: vec![panel(x, y, 130.0, series, Vec::new())],
-        shaded: Vec::new(),
-    }
+    figure(
+        "paper-start-phase",
+        Layout::Stacked,
+        "Offset against the phase at which the table starts",
+        "Mid-line of the sliding displacement in the 15th cycle of 1.5 Hz, 3 m/s², on a \
+         level table with equal friction both ways.",
+        [panel(x, y, 130.0, series, Vec::new())],
+    )
 }
 
-/// Names of the records of the suite, in order.
-pub fn records(paper: &Paper) -> Vec<&str> {
-    let mut names: Vec<&str> = Vec::new();
-    for row in &paper.suite {
-        if !names.contains(&row.record.as_str()) {
-            names.push(&row.record);
-        }
-    }
-    names
+/// Rows of the suite, record by record.
+pub fn by_record(paper: &Paper) -> Vec<&[SuiteRow]> {
+    paper.suite.chunk_by(|a, b| a.record == b.record).collect()
 }
 
 /// A record's name without the ending of its file.
@@ -176,24 +196,22 @@ pub fn stem(name: &str) -> &str {
 
 /// Peak sliding displacement against friction, one line a record; of many records grey lines and
 /// their mean.
-pub fn suite(paper: &Paper) -> Figure {
-    let names = records(paper);
-    let many = names.len() > LINES.len();
-    let of = |name: &str| {
-        let rows = paper.suite.iter().filter(|row| row.record == name);
-        rows.map(|r| [r.friction_over_pga, 1e3 * r.peak_m]).collect::<Vec<_>>()
+fn suite(paper: &Paper) -> Figure {
+    let records = by_record(paper);
+    let many = records.len() > LINES.len();
+    let points = |rows: &[SuiteRow]| -> Vec<[f64; 2]> {
+        rows.iter().map(|r| [r.friction_over_pga, 1e3 * r.peak_m]).collect()
     };
-    let mut series: Vec<Series> = names
-        .iter()
-        .enumerate()
-        .map(|(i, name)| match many {
-            true => line("", LINES.len() - 1, of(name)),
-            false => line(stem(name), i, of(name)),
+    let each = records.iter().enumerate();
+    let mut series: Vec<Series> = each
+        .map(|(i, rows)| match many {
+            true => line("", LINES.len() - 1, points(rows)),
+            false => line(stem(&rows[0].record), i, points(rows)),
         })
         .collect();
     if many {
-        let count = names.len() as f64;
-        let mut mean = of(names[0]);
+        let count = records.len() as f64;
+        let mut mean = points(records[0]);
         for point in &mut mean {
             let same = paper.suite.iter().filter(|row| row.friction_over_pga == point[0]);
             point[1] = same.map(|row| 1e3 * row.peak_m).sum::<f64>() / count;
@@ -203,18 +221,17 @@ pub fn suite(paper: &Paper) -> Figure {
     let [low, high] = [0.1, 1.5 * values(&series).fold(1.0, f64::max)];
     let y = Axis::logarithmic("Peak sliding displacement (mm)", low, high);
     let x = Axis::linear("Friction over PGA in g", 0.0, 1.0);
-    Figure {
-        id: "paper-suite",
-        title: "Peak sliding displacement against friction".to_owned(),
-        description: "Rigid block without a spring, records scaled to one peak.".to_owned(),
-        layout: Layout::Stacked,
-        panels: vec![panel(x, y, 190.0, series, Vec::new())],
-        shaded: Vec::new(),
-    }
+    figure(
+        "paper-suite",
+        Layout::Stacked,
+        "Peak sliding displacement against friction",
+        "Rigid block without a spring, records scaled to one peak.",
+        [panel(x, y, 190.0, series, Vec::new())],
+    )
 }
 
-/// Spectra of sliding structures, a panel a mass ratio; `column` 1 is acceleration, 2 sliding.
-pub fn spectra(paper: &Paper, sliding: bool) -> Figure {
+/// Spectra of sliding structures, of accelerations or of sliding, a panel a mass ratio.
+fn spectra(paper: &Paper, sliding: bool) -> Figure {
     let mut ratios: Vec<f64> = paper.spectra.iter().map(|s| s.mass_ratio).collect();
     ratios.dedup();
     let shown = |friction: f64| !(sliding && friction.is_infinite());
@@ -245,12 +262,11 @@ pub fn spectra(paper: &Paper, sliding: bool) -> Figure {
     } else {
         ("paper-spectrum-acceleration", "Peak storey acceleration")
     };
-    Figure {
+    figure(
         id,
-        title: format!("{what} of sliding structures, El Centro 1940"),
-        description: format!("{what} against fixed-base period, 5 % damping, four frictions."),
-        layout: Layout::Stacked,
-        panels: panels.collect(),
-        shaded: Vec::new(),
-    }
+        Layout::Stacked,
+        format!("{what} of sliding structures, El Centro 1940"),
+        format!("{what} against fixed-base period, 5 % damping, four frictions."),
+        panels,
+    )
 }

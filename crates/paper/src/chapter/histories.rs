@@ -1,5 +1,6 @@
 //! The paper's figures 3–6 and 9–12, drawn anew: table, block and storey, both solvers.
 
+use super::graphs::{self, panel};
 use crate::DrawnTest;
 use slipstick::response::{History, Response};
 
@@ -28,7 +29,7 @@ fn id(figure: u32) -> &'static str {
 
 /// One figure in the layout of the paper: (a) table and block acceleration, (b) sliding
 /// displacement; with a storey (b) its acceleration, (c) sliding, (d) its displacement.
-pub fn figure(test: &DrawnTest) -> Figure {
+pub fn drawn(test: &DrawnTest) -> Figure {
     let storey = test.exact.demands.storeys.len() == 1;
     let mut panels =
         vec![accelerations(test, "(a) Acceleration of table and block (m/s²)", |h, i| {
@@ -52,17 +53,14 @@ pub fn figure(test: &DrawnTest) -> Figure {
             |h, i| 1e3 * h.storey_displacement_m[i],
         ));
     }
-    Figure {
-        id: id(test.figure),
-        title: format!("Figure {} of the paper: {}", test.figure, test.name),
-        description: format!(
-            "{}, exact and stepwise, in the layout of the paper's figure {}.",
-            test.name, test.figure
-        ),
-        layout: Layout::Stacked,
+    let (name, number) = (&test.name, test.figure);
+    graphs::figure(
+        id(number),
+        Layout::Stacked,
+        format!("Figure {number} of the paper: {name}"),
+        format!("{name}, exact and stepwise, in the layout of the paper's figure {number}."),
         panels,
-        shaded: Vec::new(),
-    }
+    )
 }
 
 fn points(
@@ -98,7 +96,7 @@ fn accelerations(
         series.push(Series { label, style: TABLE, shape: Shape::History, points });
     }
     series.extend(responses(test, value));
-    panel(test, label, series, Axis::symmetric)
+    over_time(test, label, series, Axis::symmetric)
 }
 
 fn displacement(
@@ -106,25 +104,17 @@ fn displacement(
     label: &str,
     value: impl Fn(&History, usize) -> f64 + Copy,
 ) -> Panel {
-    panel(test, label, responses(test, value), Axis::covering)
+    over_time(test, label, responses(test, value), Axis::covering)
 }
 
-fn panel(
+fn over_time(
     test: &DrawnTest,
     label: &str,
     series: Vec<Series>,
     axis: fn(String, Vec<f64>) -> Axis,
 ) -> Panel {
-    let values: Vec<f64> =
-        series.iter().flat_map(|s| s.points.iter().map(|p| p[1])).chain([0.0]).collect();
+    let values = graphs::values(&series).chain([0.0]).collect();
     let [from_s, to_s] = test.window_s;
-    Panel {
-        x: Axis::linear("Time (s)", from_s, to_s),
-        y: axis(label.to_owned(), values),
-        height: 110.0,
-        series,
-        limits: Vec::new(),
-        peak: None,
-        note: String::new(),
-    }
+    let y = axis(label.to_owned(), values);
+    panel(Axis::linear("Time (s)", from_s, to_s), y, 110.0, series, Vec::new())
 }

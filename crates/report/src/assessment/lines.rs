@@ -39,6 +39,21 @@ pub fn line(label: impl Into<String>, style: Style, points: Vec<[f64; 2]>) -> Se
     Series { label: label.into(), style, shape: Shape::Curve, points }
 }
 
+/// A quantity over x, which does not decrease.
+pub fn over_x(label: impl Into<String>, style: Style, points: Vec<[f64; 2]>) -> Series {
+    Series { label: label.into(), style, shape: Shape::History, points }
+}
+
+/// Separate points, filled in a colour.
+pub fn dots(
+    label: impl Into<String>,
+    style: Style,
+    fill: &'static str,
+    points: Vec<[f64; 2]>,
+) -> Series {
+    Series { label: label.into(), style, shape: Shape::Dots(fill), points }
+}
+
 /// Points along lower and back along upper values, where both are finite.
 pub fn band(
     x: &[f64],

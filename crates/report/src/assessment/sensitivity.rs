@@ -5,13 +5,13 @@ use slipstick::notice::{Notice, NoticeKind};
 use slipstick::response::DemandColumn;
 
 use super::key::{quantity, title};
-use super::lines::line;
+use super::lines::{line, panel};
 use super::sheet::{Sheet, cell, failed};
 use crate::display::DisplayUnits;
 use crate::figures::Drawn;
 use crate::json::Json;
 use crate::number::{compact, significant};
-use crate::plot::{Axis, Figure, Layout, Panel, Series, Shape, Style};
+use crate::plot::{Axis, Figure, Layout, Series, Shape, Style};
 
 /// Demands that are drawn and told first, where they are among those asked for.
 const FIRST: [&str; 3] =
@@ -227,15 +227,7 @@ impl SensitivityReport<'_> {
         let axis = Style { colour: "#1a1a1a", width: 0.8, dashes: "" };
         let zero = line("", axis, vec![[0.0, 0.5], [0.0, count + 0.5]]);
         let series = ranked.iter().enumerate().map(bar).chain([zero]).collect();
-        let panel = Panel {
-            x,
-            y: Axis::named("", names),
-            height: 24.0 * count + 16.0,
-            series,
-            limits: Vec::new(),
-            peak: None,
-            note: String::new(),
-        };
+        let panel = panel(x, Axis::named("", names), 24.0 * count + 16.0, series);
         let most = ranked.last().map_or(String::new(), |(key, ..)| key.path.clone());
         let caption = format!(
             "{what}: what 1 % more of each key changes, in %; the strongest, {most}, on top."

@@ -7,11 +7,11 @@ use slipstick::slider::{Direction, Surface};
 use super::force::vertical_at_knots;
 use super::histories::{SHADING, history_panel, over_time};
 use super::{Drawn, Scene, Trace};
-use crate::assessment::lines::single;
+use crate::assessment::lines::{dots, line, panel, single};
 use crate::display::Quantity;
 use crate::markup::shortened;
 use crate::number::compact;
-use crate::plot::{Axis, Limit, Panel, Series, Shape, Style};
+use crate::plot::{Axis, Limit, Panel, Style};
 
 /// How many instants of the run are marked on its law.
 const MARKS: usize = 240;
@@ -46,12 +46,6 @@ pub fn friction_by_speed(scene: &Scene) -> Option<Drawn> {
         let speed = history.sliding_velocity_m_per_s[knot].abs();
         [unit.of(speed), history.friction_force_n[knot].abs() / normal(knot)]
     });
-    let line = |label: &str, style: Style, points: Vec<[f64; 2]>| Series {
-        label: label.to_owned(),
-        style,
-        shape: Shape::Curve,
-        points,
-    };
     let [positive, negative] = [Direction::Positive, Direction::Negative].map(law);
     let mut series = if positive == negative {
         vec![line("kinetic friction", Style::MAIN, positive)]
@@ -61,22 +55,12 @@ pub fn friction_by_speed(scene: &Scene) -> Option<Drawn> {
             line("towards −x", Style::DASHED, negative),
         ]
     };
-    series.push(Series {
-        label: "|T|/N of the run".to_owned(),
-        style: Style::WIDE,
-        shape: Shape::Dots(Style::WIDE.colour),
-        points: run.collect(),
-    });
+    series.push(dots("|T|/N of the run", Style::WIDE, Style::WIDE.colour, run.collect()));
     let values = series.iter().flat_map(|s| s.points.iter().map(|point| point[1]));
-    let panel = Panel {
-        x: Axis::linear(unit.label("Sliding speed"), 0.0, unit.of(end_m_per_s)),
-        y: Axis::from_zero("Coefficient of friction", values.collect::<Vec<_>>()),
-        height: 170.0,
-        series,
-        limits: vec![],
-        peak: None,
-        note: format!("fastest {} {}", compact(unit.of(peak_m_per_s)), unit.symbol),
-    };
+    let along = Axis::linear(unit.label("Sliding speed"), 0.0, unit.of(end_m_per_s));
+    let upwards = Axis::from_zero("Coefficient of friction", values.collect::<Vec<_>>());
+    let note = format!("fastest {} {}", compact(unit.of(peak_m_per_s)), unit.symbol);
+    let panel = Panel { note, ..panel(along, upwards, 170.0, series) };
     let caption =
         "Kinetic friction over the sliding speed: the law as it is given, and the friction \
                    force over the normal force at instants of the run. Where dots crowd, the block \

@@ -1,7 +1,7 @@
 //! Where the energy goes.
 
 use super::{Drawn, Scene};
-use crate::assessment::lines::{panel, single};
+use crate::assessment::lines::{over_x, panel, single};
 use crate::display::Quantity;
 use crate::number::printed;
 use crate::plot::{Axis, Series, Shape, Style};
@@ -36,7 +36,7 @@ pub fn by_kind(scene: &Scene) -> Option<Drawn> {
     let values: Vec<f64> =
         input.iter().chain(series.iter().flat_map(|s| &s.points)).map(|point| point[1]).collect();
     let style = Style { width: 1.4, ..Style::DASHED };
-    series.push(Series { label: "input".to_owned(), style, shape: Shape::History, points: input });
+    series.push(over_x("input", style, input));
     let panel =
         panel(scene.time_axis(), Axis::from_zero(unit.label("Energy"), values), 190.0, series);
     let last = |values: &[f64]| values.last().copied().unwrap_or(0.0);

@@ -5,10 +5,10 @@ use slipstick::response::History;
 use slipstick::slider::Contact;
 
 use super::{Drawn, Scene};
-use crate::assessment::lines::laid;
+use crate::assessment::lines::{laid, line, over_x, panel};
 use crate::display::Quantity;
 use crate::number::printed;
-use crate::plot::{Axis, Figure, Layout, Limit, Panel, Series, Shape, Style};
+use crate::plot::{Axis, Figure, Layout, Limit, Panel, Series, Style};
 
 /// An axis of forces ends at this many times the largest force without a stop's.
 const ABOVE_THE_LOOP: f64 = 3.0;
@@ -47,32 +47,19 @@ pub fn loops(scene: &Scene) -> Drawn {
         let of_loop = largest(&mut (0..history.len()).map(of_loop));
         let most = largest(&mut forces());
         let cut = with_stop && of_loop > 0.0 && most > ABOVE_THE_LOOP * of_loop;
-        Panel {
-            x: Axis::covering(
-                length.label("Sliding displacement s"),
-                points.iter().map(|p| p[0]).chain([0.0]),
+        let (upwards, note) = match cut {
+            true => (
+                Axis::symmetric(unit.label(label), [ABOVE_THE_LOOP * of_loop]),
+                format!("stop {} {}", printed(most, 3), unit.symbol),
             ),
-            y: if cut {
-                Axis::symmetric(unit.label(label), [ABOVE_THE_LOOP * of_loop])
-            } else {
-                Axis::symmetric(unit.label(label), forces())
-            },
-            height: 150.0,
-            note: if cut {
-                format!("stop {} {}", printed(most, 3), unit.symbol)
-            } else {
-                String::new()
-            },
-            series: {
-                let stop = if with_stop { at_stop(history, &points) } else { Vec::new() };
-                let label = if stop.is_empty() { "" } else { "slider" };
-                let style = Style::MAIN;
-                let main = Series { label: label.to_owned(), style, shape: Shape::Curve, points };
-                std::iter::once(main).chain(stop).collect()
-            },
-            limits: Vec::new(),
-            peak: None,
-        }
+            false => (Axis::symmetric(unit.label(label), forces()), String::new()),
+        };
+        let along = points.iter().map(|p| p[0]).chain([0.0]);
+        let along = Axis::covering(length.label("Sliding displacement s"), along);
+        let stop = if with_stop { at_stop(history, &points) } else { Vec::new() };
+        let label = if stop.is_empty() { "" } else { "slider" };
+        let series = std::iter::once(line(label, Style::MAIN, points)).chain(stop).collect();
+        Panel { note, ..panel(along, upwards, 150.0, series) }
     };
     let mut panels = Vec::new();
     let mut caption = String::from("Force of the block on its slider");
@@ -105,11 +92,12 @@ fn at_stop(history: &History, points: &[[f64; 2]]) -> Vec<Series> {
     let pressed = |knot: &usize| matches!(history.contact[*knot], Contact::Pressed(_));
     let knots: Vec<usize> = (0..history.contact.len()).filter(pressed).collect();
     let stretches = knots.chunk_by(|a, b| a + 1 == *b).filter(|stretch| stretch.len() > 1);
-    let piece = |stretch: &[usize]| Series {
-        label: String::new(),
-        style: Style { colour: Style::LIMIT.colour, width: 1.6, dashes: "" },
-        shape: Shape::Curve,
-        points: stretch.iter().map(|&knot| points[knot]).collect(),
+    let piece = |stretch: &[usize]| {
+        line(
+            "",
+            Style { colour: Style::LIMIT.colour, width: 1.6, dashes: "" },
+            stretch.iter().map(|&knot| points[knot]).collect(),
+        )
     };
     let mut pieces: Vec<Series> = stretches.map(piece).collect();
     if let Some(first) = pieces.first_mut() {
@@ -141,12 +129,8 @@ pub fn demand(scene: &Scene) -> Option<Drawn> {
     ];
     // Friction by speed has no level line.
     let bounds = bounds.into_iter().take(if by_speed { 2 } else { 4 });
-    let force = Series {
-        label: "T".to_owned(),
-        style: Style::MAIN,
-        shape: Shape::History,
-        points: scene.over_time(unit, |knot| history.friction_force_n[knot]),
-    };
+    let force =
+        over_x("T", Style::MAIN, scene.over_time(unit, |knot| history.friction_force_n[knot]));
     let mut series = vec![force];
     let mut limits = Vec::new();
     let mut values: Vec<f64> = series[0].points.iter().map(|point| point[1]).collect();
@@ -158,8 +142,7 @@ pub fn demand(scene: &Scene) -> Option<Drawn> {
         for (coefficient, label, style) in bounds {
             let points = scene.over_time(unit, |knot| coefficient * normal_n(knot));
             values.extend(points.iter().map(|point| point[1]));
-            let (label, shape) = (label.to_owned(), Shape::History);
-            series.push(Series { label, style, shape, points });
+            series.push(over_x(label, style, points));
         }
     } else {
         for (coefficient, label, style) in bounds {
@@ -167,21 +150,13 @@ pub fn demand(scene: &Scene) -> Option<Drawn> {
             values.push(value);
             // A legend entry without points: the line itself is drawn from edge to edge.
             if !label.is_empty() {
-                let (label, shape) = (label.to_owned(), Shape::History);
-                series.push(Series { label, style, shape, points: Vec::new() });
+                series.push(over_x(label, style, Vec::new()));
             }
             limits.push(Limit { value, label: String::new(), style });
         }
     }
-    let panel = Panel {
-        x: scene.time_axis(),
-        y: Axis::symmetric(unit.label("Friction force T"), values),
-        height: 190.0,
-        series,
-        limits,
-        peak: None,
-        note: String::new(),
-    };
+    let upwards = Axis::symmetric(unit.label("Friction force T"), values);
+    let panel = Panel { limits, ..panel(scene.time_axis(), upwards, 190.0, series) };
     let varies = if report.motion.vertical_m_per_s2().is_some() {
         " The bounds follow the normal force N(t) of the vertical motion."
     } else {

@@ -4,10 +4,11 @@ use slipstick::response::{Demands, StoreyDemands};
 
 use super::trace::Trace;
 use super::{Drawn, Scene, shown_note, shown_storeys};
+use crate::assessment::lines::{over_x, panel};
 use crate::display::{Quantity, Unit};
 use crate::markup::shortened;
 use crate::number::{compact, printed};
-use crate::plot::{Axis, Figure, Layout, Limit, Panel, Series, Shape, Style};
+use crate::plot::{Axis, Figure, Layout, Limit, Panel, Series, Style};
 
 /// Five of them stand on a printed page together with the sliding displacement.
 const HISTORY_HEIGHT: f64 = 78.0;
@@ -35,12 +36,7 @@ pub fn sliding_displacement(scene: &Scene) -> Drawn {
         .chain(gap.iter().flat_map(|g| [-g, *g]))
         .collect();
     let (peak, note) = marked(&nominal, unit, "peak");
-    series.push(Series {
-        label,
-        style: Style::MAIN,
-        shape: Shape::History,
-        points: nominal.points,
-    });
+    series.push(over_x(label, Style::MAIN, nominal.points));
     let limits = gap.map_or_else(Vec::new, |gap| {
         let line = |value: f64, label| Limit { value, label, style: Style::LIMIT };
         let label = format!("gap ±{} {}", compact(gap), unit.symbol);
@@ -101,7 +97,7 @@ fn bound_series(scene: &Scene, unit: Unit) -> Vec<Series> {
             let demands = &response.demands;
             let extremes = [demands.min_sliding_displacement_m, demands.max_sliding_displacement_m];
             let points = Trace::new(points, extremes.map(|value| unit.of(value))).points;
-            Some(Series { label: label.to_owned(), style, shape: Shape::History, points })
+            Some(over_x(label, style, points))
         })
         .collect()
 }
@@ -209,24 +205,13 @@ pub(super) fn over_time(
 
 pub(super) fn history_panel(scene: &Scene, quantity: &str, trace: Trace, unit: Unit) -> Panel {
     let (peak, note) = marked(&trace, unit, "peak");
-    Panel {
-        x: scene.time_axis(),
-        y: Axis::symmetric(unit.label(quantity), trace.values()),
-        height: HISTORY_HEIGHT,
-        series: vec![Series {
-            label: String::new(),
-            style: Style::MAIN,
-            shape: Shape::History,
-            points: trace.points,
-        }],
-        limits: Vec::new(),
-        peak,
-        note,
-    }
+    let upwards = Axis::symmetric(unit.label(quantity), trace.values());
+    let series = vec![over_x("", Style::MAIN, trace.points)];
+    Panel { peak, note, ..panel(scene.time_axis(), upwards, HISTORY_HEIGHT, series) }
 }
 
 /// The point to ring and what to write of it; nothing where all is 0.
-fn marked(trace: &Trace, unit: Unit, word: &str) -> (Option<[f64; 2]>, String) {
+pub fn marked(trace: &Trace, unit: Unit, word: &str) -> (Option<[f64; 2]>, String) {
     match trace.peak {
         Some([time_s, value]) if value != 0.0 => {
             let value_text = printed(value.abs(), 4);

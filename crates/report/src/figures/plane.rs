@@ -7,7 +7,7 @@ use slipstick::response::{Demands, History, HistoryAlongY};
 use super::histories::{SHADING, history_panel, of_points, over_time};
 use super::trace::Trace;
 use super::{Drawn, Scene, shown_note, shown_storeys};
-use crate::assessment::lines::{laid, panel};
+use crate::assessment::lines::{laid, line, panel};
 use crate::display::{Quantity, Unit};
 use crate::markup::shortened;
 use crate::number::{compact, printed};
@@ -106,16 +106,17 @@ fn orbit(label: &str, unit: Unit, vector: Vector, circles: &[(&str, Style, f64)]
     let axis = |name: &str| {
         Axis::symmetric(unit.label(&format!("{label} along {name}")), largest.iter().copied())
     };
-    let circle = |(label, style, radius): &(&str, Style, f64)| Series {
-        label: (*label).to_owned(),
-        style: *style,
-        shape: Shape::Curve,
-        points: (0..=120)
-            .map(|i| {
-                let (sin, cos) = libm::sincos(TAU * f64::from(i) / 120.0);
-                [radius * cos, radius * sin]
-            })
-            .collect(),
+    let circle = |(label, style, radius): &(&str, Style, f64)| {
+        line(
+            *label,
+            *style,
+            (0..=120)
+                .map(|i| {
+                    let (sin, cos) = libm::sincos(TAU * f64::from(i) / 120.0);
+                    [radius * cos, radius * sin]
+                })
+                .collect(),
+        )
     };
     let mut series: Vec<Series> = circles.iter().map(circle).collect();
     let (style, shape) = (Style::MAIN, Shape::Curve);

@@ -1,11 +1,11 @@
 //! Floor response spectra.
 
 use super::{Drawn, shown_note, shown_storeys};
-use crate::assessment::lines::{panel, single};
+use crate::assessment::lines::{over_x, panel, single};
 use crate::display::Quantity;
 use crate::markup::shortened;
 use crate::number::printed;
-use crate::plot::{Axis, Series, Shape, Style};
+use crate::plot::{Axis, Series, Style};
 use slipstick::assessment::single::FloorSpectra;
 
 use crate::report::Report;
@@ -27,11 +27,12 @@ pub fn floors(report: &Report, spectra: &FloorSpectra) -> Option<Drawn> {
         Style { colour: "#1a1a1a", ..Style::LIMIT },
     ];
     let names = &report.summary.names;
-    let line = |label: String, style: Style, values: &[f64]| Series {
-        label: shortened(&label, 24),
-        style,
-        shape: Shape::History,
-        points: periods.iter().zip(values).map(|(&t, &a)| [t, unit.of(a)]).collect(),
+    let line = |label: String, style: Style, values: &[f64]| {
+        over_x(
+            shortened(&label, 24),
+            style,
+            periods.iter().zip(values).map(|(&t, &a)| [t, unit.of(a)]).collect(),
+        )
     };
     let storeys = shown.iter().zip(storey_styles).map(|(&i, style)| {
         line(names.point(i + 1).to_lowercase(), style, &spectra.storeys_m_per_s2[i])

@@ -7,13 +7,14 @@ use slipstick::response::{Method, Mode};
 use slipstick::units::Dimension;
 
 use super::text::in_groups;
+use crate::assessment::lines::{over_x, panel};
 use crate::assessment::sheet::{Sheet, Table};
 use crate::describe::model_rows;
 use crate::display::{DisplayUnits, Quantity, Unit};
 use crate::figures::Drawn;
 use crate::json::Json;
 use crate::number::{significant, typeset};
-use crate::plot::{Axis, Figure, Layout, Panel, Series, Shape, Style};
+use crate::plot::{Axis, Figure, Layout, Panel, Style};
 use crate::summary::method_name;
 
 /// The table's own acceleration: there to be seen, not to hide the others.
@@ -335,34 +336,22 @@ impl CompareReport<'_> {
         let points = |times_s: &[f64], values: &[f64]| -> Vec<[f64; 2]> {
             times_s.iter().zip(values).map(|(t, v)| [*t, unit.of(*v)]).collect()
         };
-        let line = |label: &str, style, points| Series {
-            label: label.to_owned(),
-            style,
-            shape: Shape::History,
-            points,
-        };
         let mut series = Vec::new();
         let motion = &self.comparison.motion;
         if pair.channel.dimension() == Dimension::Acceleration {
             let table = points(motion.times_s(), motion.horizontal_m_per_s2());
-            series.push(line("table", TABLE, table));
+            series.push(over_x("table", TABLE, table));
         }
-        series.push(line("measured", Style::WIDE, points(&pair.times_s, &pair.measured)));
-        series.push(line("predicted", Style::MAIN, points(&pair.times_s, &pair.predicted)));
+        series.push(over_x("measured", Style::WIDE, points(&pair.times_s, &pair.measured)));
+        series.push(over_x("predicted", Style::MAIN, points(&pair.times_s, &pair.predicted)));
         let values: Vec<f64> = series.iter().flat_map(|s| s.points.iter().map(|p| p[1])).collect();
         let note = compared
             .metrics
             .peak_ratio
             .map_or(String::new(), |ratio| format!("peak ratio {}", significant(ratio, 3)));
-        Panel {
-            x: Axis::linear("Time (s)", 0.0, motion.duration_s()),
-            y: Axis::covering(unit.label(&title(pair.channel)), values),
-            height: 120.0,
-            series,
-            limits: Vec::new(),
-            peak: None,
-            note,
-        }
+        let along = Axis::linear("Time (s)", 0.0, motion.duration_s());
+        let upwards = Axis::covering(unit.label(&title(pair.channel)), values);
+        Panel { note, ..panel(along, upwards, 120.0, series) }
     }
 }
 

@@ -5,12 +5,12 @@ use slipstick::laboratory::cyclic::{
 };
 
 use super::identify::estimate_json;
-use crate::assessment::lines::{BAND, band, laid, line, panel, single};
+use crate::assessment::lines::{BAND, band, dots, laid, line, panel, single};
 use crate::display::{DisplayUnits, Quantity};
 use crate::figures::Drawn;
 use crate::json::Json;
 use crate::number::significant;
-use crate::plot::{Axis, Layout, Limit, Panel, Series, Shape, Style};
+use crate::plot::{Axis, Layout, Limit, Panel, Series, Style};
 
 /// One test.
 #[derive(Clone, Copy, Debug)]
@@ -225,12 +225,12 @@ pub fn by_speed(
     let mut series = vec![
         band(&x, &low, &high, "95 % interval of the curve", BAND),
         line("fitted", Style::MAIN, fitted),
-        Series {
-            label: "measured, a cycle or a class of its speeds".to_owned(),
-            style: Style { width: 0.4, ..Style::WIDE },
-            shape: Shape::Dots(Style::WIDE.colour),
-            points: measured.iter().copied().map(shown).collect(),
-        },
+        dots(
+            "measured, a cycle or a class of its speeds",
+            Style { width: 0.4, ..Style::WIDE },
+            Style::WIDE.colour,
+            measured.iter().copied().map(shown).collect(),
+        ),
     ];
     series.retain(|series| !series.points.is_empty());
     let limits: Vec<Limit> = static_friction
@@ -244,19 +244,9 @@ pub fn by_speed(
     let slowest = measured.iter().fold(f64::INFINITY, |least, m| least.min(m[0]));
     let values = series.iter().flat_map(|s| s.points.iter().map(|point| point[1]));
     let values: Vec<f64> = values.chain(limits.iter().map(|limit| limit.value)).collect();
-    let panel = Panel {
-        x: Axis::logarithmic(
-            speed.label("Sliding speed"),
-            speed.of(slowest / 1.2),
-            speed.of(1.2 * largest[0]),
-        ),
-        y: Axis::covering(label, values),
-        height: 210.0,
-        series,
-        limits,
-        peak: None,
-        note: String::new(),
-    };
+    let [from, to] = [slowest / 1.2, 1.2 * largest[0]].map(|m_per_s| speed.of(m_per_s));
+    let along = Axis::logarithmic(speed.label("Sliding speed"), from, to);
+    let panel = Panel { limits, ..panel(along, Axis::covering(label, values), 210.0, series) };
     let caption =
         "Kinetic friction over the sliding speed: what every cycle tells (mean of both ways), \
                    and the fitted curve with its 95 % interval."
@@ -280,19 +270,14 @@ fn figure(test: &Test, id: &'static str, display: DisplayUnits) -> Drawn {
     let point = |i: usize, force: f64| [x.of(test.displacement_m[i]), y.of(force)];
     let measured: Vec<[f64; 2]> =
         test.force_n.iter().enumerate().map(|(i, force)| point(i, *force)).collect();
-    let mut series = vec![Series {
-        label: "measured".to_owned(),
-        style: Style { width: 1.4, ..Style::WIDE },
-        shape: Shape::Curve,
-        points: measured.clone(),
-    }];
+    let mut series = vec![line("measured", Style { width: 1.4, ..Style::WIDE }, measured.clone())];
     let mut stroke: Vec<[f64; 2]> = Vec::new();
     let mut strokes = 0;
     let mut close = |stroke: &mut Vec<[f64; 2]>| {
         if stroke.len() > 1 {
             let label = if strokes == 0 { "fitted while sliding" } else { "" }.to_owned();
             let points = core::mem::take(stroke);
-            series.push(Series { label, style: Style::MAIN, shape: Shape::Curve, points });
+            series.push(line(label, Style::MAIN, points));
             strokes += 1;
         }
         stroke.clear();
@@ -311,17 +296,17 @@ fn figure(test: &Test, id: &'static str, display: DisplayUnits) -> Drawn {
         230.0,
         series,
     );
-    let by_cycle = |label: &str, style, value: &dyn Fn(&Cycle) -> Option<f64>| Series {
-        label: label.to_owned(),
-        style,
-        shape: Shape::Curve,
-        points: test
-            .fit
-            .cycles
-            .iter()
-            .enumerate()
-            .filter_map(|(i, cycle)| Some([i as f64 + 1.0, y.of(value(cycle)?)]))
-            .collect(),
+    let by_cycle = |label: &str, style, value: &dyn Fn(&Cycle) -> Option<f64>| {
+        line(
+            label,
+            style,
+            test.fit
+                .cycles
+                .iter()
+                .enumerate()
+                .filter_map(|(i, cycle)| Some([i as f64 + 1.0, y.of(value(cycle)?)]))
+                .collect(),
+        )
     };
     let series = vec![
         by_cycle("kinetic +x", Style::MAIN, &|c| Some(c.kinetic_n[0])),

@@ -4,12 +4,12 @@ use slipstick::input::Channel;
 use slipstick::laboratory::free_vibration::FreeVibration;
 
 use super::compare::{quantity, title};
-use crate::assessment::lines::{panel, single};
+use crate::assessment::lines::{over_x, panel, single};
 use crate::display::DisplayUnits;
 use crate::figures::Drawn;
 use crate::json::Json;
 use crate::number::significant;
-use crate::plot::{Axis, Series, Shape, Style};
+use crate::plot::{Axis, Style};
 
 /// What the intervals assume.
 pub const ASSUMPTION: &str = "95 % intervals by profile likelihood: one linear mode with viscous \
@@ -59,11 +59,8 @@ pub fn figures(
 ) -> Vec<Drawn> {
     let largest = values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let unit = display.unit(quantity(channel), largest);
-    let line = |label: &str, style, values: &[f64]| Series {
-        label: label.to_owned(),
-        style,
-        shape: Shape::History,
-        points: times_s.iter().zip(values).map(|(t, v)| [*t, unit.of(*v)]).collect(),
+    let line = |label: &str, style, values: &[f64]| {
+        over_x(label, style, times_s.iter().zip(values).map(|(t, v)| [*t, unit.of(*v)]).collect())
     };
     let mut series = vec![line("measured", Style::WIDE, values)];
     if !fit.fitted.is_empty() {

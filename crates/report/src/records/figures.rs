@@ -4,11 +4,11 @@
 use slipstick::motion::{GroundMotion, Quantity, Spectrum, processing::Step};
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 
-use crate::assessment::lines::{panel, single};
+use crate::assessment::lines::{over_x, panel, single};
 use crate::display::{DisplayUnits, Quantity as Shown, Unit};
-use crate::figures::{Drawn, Trace};
+use crate::figures::{Drawn, Trace, marked};
 use crate::number::{compact, printed};
-use crate::plot::{Axis, Figure, Layout, Panel, Series, Shape, Style};
+use crate::plot::{Axis, Figure, Layout, Panel, Series, Style};
 
 /// Heights of panels: four of them and a spectrum stand on one printed page.
 const HISTORY_HEIGHT: f64 = 92.0;
@@ -83,28 +83,11 @@ impl Histories<'_> {
     }
 
     fn panel(&self, quantity: &str, trace: Trace, unit: Unit) -> Panel {
-        let (peak, note) = match trace.peak {
-            Some([time_s, value]) if value != 0.0 => {
-                let (value_text, time_text) = (printed(value.abs(), 4), printed(time_s, 4));
-                let note = format!("peak {value_text} {} at {time_text} s", unit.symbol);
-                (Some([time_s, value]), note)
-            }
-            _ => (None, "0 throughout".to_owned()),
-        };
-        Panel {
-            x: Axis::linear("Time (s)", 0.0, self.motion.duration_s()),
-            y: Axis::symmetric(unit.label(quantity), trace.values()),
-            height: HISTORY_HEIGHT,
-            series: vec![Series {
-                label: String::new(),
-                style: Style::MAIN,
-                shape: Shape::History,
-                points: trace.points,
-            }],
-            limits: Vec::new(),
-            peak,
-            note,
-        }
+        let (peak, note) = marked(&trace, unit, "peak");
+        let along = Axis::linear("Time (s)", 0.0, self.motion.duration_s());
+        let upwards = Axis::symmetric(unit.label(quantity), trace.values());
+        let series = vec![over_x("", Style::MAIN, trace.points)];
+        Panel { peak, note, ..panel(along, upwards, HISTORY_HEIGHT, series) }
     }
 
     fn husid(&self) -> Panel {
@@ -114,19 +97,13 @@ impl Histories<'_> {
         let style = Style { width: 0.8, ..Style::DOTTED };
         let limit =
             |percent: f64| crate::plot::Limit { value: percent, label: String::new(), style };
+        let along = Axis::linear("Time (s)", 0.0, self.motion.duration_s());
+        let share = Axis::linear("Share of the Arias intensity (%)", 0.0, 100.0);
+        let series = vec![over_x("", Style::MAIN, husid.points)];
         Panel {
-            x: Axis::linear("Time (s)", 0.0, self.motion.duration_s()),
-            y: Axis::linear("Share of the Arias intensity (%)", 0.0, 100.0),
-            height: HUSID_HEIGHT,
-            series: vec![Series {
-                label: String::new(),
-                style: Style::MAIN,
-                shape: Shape::History,
-                points: husid.points,
-            }],
             limits: [5.0, 75.0, 95.0].map(limit).to_vec(),
-            peak: None,
             note: format!("in all {} {}", printed(unit.of(total), 4), unit.symbol),
+            ..panel(along, share, HUSID_HEIGHT, series)
         }
     }
 }
@@ -186,12 +163,7 @@ fn spectra(spectrum: &Spectrum, display: DisplayUnits, id: &'static str) -> Opti
         let mut points: Vec<[f64; 2]> =
             points.filter(|(t, _)| **t > 0.0).map(|(t, o)| [*t, unit.of(ordinate(o))]).collect();
         points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        Series {
-            label: format!("damping {} %", compact(100.0 * damping)),
-            style: styles[i % styles.len()],
-            shape: Shape::History,
-            points,
-        }
+        over_x(format!("damping {} %", compact(100.0 * damping)), styles[i % styles.len()], points)
     });
     let series: Vec<Series> = series.collect();
     let values: Vec<f64> = series.iter().flat_map(|s| s.points.iter().map(|p| p[1])).collect();

@@ -4,7 +4,7 @@ use slipstick::assessment::design::{Bounded, DesignMap, Figures, Point};
 use slipstick::assessment::grid::Axis as Variable;
 
 use super::{DesignReport, label};
-use crate::assessment::lines::{line, panel, single, stacked};
+use crate::assessment::lines::{dots, line, panel, single, stacked};
 use crate::display::Unit;
 use crate::figures::Drawn;
 use crate::number::compact;
@@ -24,7 +24,7 @@ impl DesignReport<'_> {
         let front: Vec<[f64; 2]> = self.run.found.front.iter().map(|p| at(&p.figures)).collect();
         let mut series = vec![
             line("front", Style { width: 1.2, ..Style::MAIN }, front.clone()),
-            dots("", "#0b3c6f", front.clone()),
+            designs("", "#0b3c6f", front.clone()),
         ];
         if let Some((_, bounded)) = self.bounded() {
             for (label, fill, pick) in [
@@ -34,7 +34,7 @@ impl DesignReport<'_> {
                 let points: Vec<[f64; 2]> = bounded.iter().map(|b| at(pick(b))).collect();
                 series.push(Series {
                     style: Style { colour: "#b3541e", width: 0.7, dashes: "" },
-                    ..dots(label, fill, points)
+                    ..designs(label, fill, points)
                 });
             }
         }
@@ -104,7 +104,7 @@ impl DesignReport<'_> {
                 add_lines(&mut series, &mut names, map, &shown, limit, Style::LIMIT, name);
             }
             if only {
-                series.push(dots("front", "#0b3c6f", front.clone()));
+                series.push(designs("front", "#0b3c6f", front.clone()));
             }
             series.push(ring(main.as_ref().map(at)));
             series.extend(names);
@@ -158,15 +158,9 @@ fn add_lines(
 /// A ring around the chosen design.
 fn ring(at: Option<[f64; 2]>) -> Series {
     let style = Style { colour: "#a3161c", width: 3.2, dashes: "" };
-    Series {
-        label: "chosen".to_owned(),
-        style,
-        shape: Shape::Dots("none"),
-        points: at.into_iter().collect(),
-    }
+    dots("chosen", style, "none", at.into_iter().collect())
 }
 
-fn dots(label: &str, fill: &'static str, points: Vec<[f64; 2]>) -> Series {
-    let style = Style { colour: "#0b3c6f", width: 0.9, dashes: "" };
-    Series { label: label.to_owned(), style, shape: Shape::Dots(fill), points }
+fn designs(label: &str, fill: &'static str, points: Vec<[f64; 2]>) -> Series {
+    dots(label, Style { colour: "#0b3c6f", width: 0.9, dashes: "" }, fill, points)
 }

@@ -5,11 +5,11 @@ use slipstick::assessment::fragility::{Capacity, CloudPoint};
 
 use super::{Data, FragilityReport};
 use crate::assessment::key::title;
-use crate::assessment::lines::{BAND, band, line, panel, single};
+use crate::assessment::lines::{BAND, band, dots, line, panel, single};
 use crate::display::Unit;
 use crate::figures::Drawn;
 use crate::number::compact;
-use crate::plot::{Axis, Series, Shape, Style};
+use crate::plot::{Axis, Style};
 
 impl FragilityReport<'_> {
     pub(super) fn figure(&self, unit: Unit) -> Drawn {
@@ -22,22 +22,19 @@ impl FragilityReport<'_> {
             band(&x, &column(2), &column(3), format!("{percent} % band"), BAND),
             line("fitted", Style { width: 2.0, ..Style::MAIN }, points),
         ];
-        let dots = |label: &str, points: Vec<[f64; 2]>| Series {
-            label: label.to_owned(),
-            style: Style { colour: "#a3161c", width: 1.2, dashes: "" },
-            shape: Shape::Dots("#fff"),
-            points,
+        let hollow = |label: &str, points: Vec<[f64; 2]>| {
+            dots(label, Style { colour: "#a3161c", width: 1.2, dashes: "" }, "#fff", points)
         };
         let what = match &self.run.data {
             Data::Stripes(stripes) => {
                 let point = |s: &slipstick::assessment::fragility::Stripe| {
                     [unit.of(s.level), s.exceeded as f64 / s.runs as f64]
                 };
-                series.push(dots("observed share", stripes.iter().map(point).collect()));
+                series.push(hollow("observed share", stripes.iter().map(point).collect()));
                 "points: share of the runs of each level that exceed the limit"
             }
             Data::Capacities(capacities) => {
-                series.push(dots("records", empirical(capacities, unit)));
+                series.push(hollow("records", empirical(capacities, unit)));
                 "points: the records' capacities, at their rank among all records"
             }
             Data::Cloud(_) => "from the cloud of the next figure",
@@ -60,21 +57,23 @@ impl FragilityReport<'_> {
     }
 
     pub(super) fn cloud_figure(&self, points: &[CloudPoint], unit: Unit, edp: Unit) -> Drawn {
-        let dots = |known: Known, label: &str, fill: &'static str| Series {
-            label: label.to_owned(),
-            style: Style { colour: "#1a1a1a", width: 0.8, dashes: "" },
-            shape: Shape::Dots(fill),
-            points: points
-                .iter()
-                .filter(|point| point.known == known)
-                .map(|point| [unit.of(point.level), edp.of(point.demand)])
-                .collect(),
+        let runs = |known: Known, label: &str, fill: &'static str| {
+            dots(
+                label,
+                Style { colour: "#1a1a1a", width: 0.8, dashes: "" },
+                fill,
+                points
+                    .iter()
+                    .filter(|point| point.known == known)
+                    .map(|point| [unit.of(point.level), edp.of(point.demand)])
+                    .collect(),
+            )
         };
-        let mut series = vec![dots(Known::Exactly, "run", "#1a1a1a")];
+        let mut series = vec![runs(Known::Exactly, "run", "#1a1a1a")];
         for (known, label) in
             [(Known::AtMost, "below the floor"), (Known::AtLeast, "above the cap")]
         {
-            let part = dots(known, label, "#fff");
+            let part = runs(known, label, "#fff");
             if !part.points.is_empty() {
                 series.push(part);
             }

@@ -4,11 +4,11 @@ use slipstick::assessment::histories::ModelHistories;
 use slipstick::response::DemandColumn;
 
 use super::HistoriesReport;
-use crate::assessment::lines::{GROUPS, RECORD, line, panel, stacked};
+use crate::assessment::lines::{GROUPS, RECORD, line, over_x, panel, stacked};
 use crate::assessment::pairs;
 use crate::display::Unit;
 use crate::figures::Drawn;
-use crate::plot::{Axis, Limit, Panel, Series, Shape, Style};
+use crate::plot::{Axis, Limit, Panel, Style};
 
 impl HistoriesReport<'_> {
     /// Sliding displacement over time, a panel a model; and the share of records that stay below a peak.
@@ -59,7 +59,7 @@ impl HistoriesReport<'_> {
     fn history_panel(&self, model: &ModelHistories, y: &Axis, end_s: f64, unit: &Unit) -> Panel {
         let curve = |[times_s, s]: &[Vec<f64>; 2], label: String, style: Style| {
             let points = times_s.iter().zip(s).map(|(t, s)| [*t, unit.of(*s)]).collect();
-            Series { label, style, shape: Shape::History, points }
+            over_x(label, style, points)
         };
         let nominal = model.records.iter().map(|on| curve(&on.sliding, String::new(), RECORD));
         let governs = model.governing_history.as_ref().map(|(record, bound, history)| {
