@@ -4,6 +4,8 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use super::Direction;
+use super::branch::{Restraint, SlipForce};
+use super::rate::Coefficient;
 use crate::linear::lanes::{eight, greatest, least};
 use crate::linear::polynomial::Polynomial;
 
@@ -32,6 +34,20 @@ impl Hold {
     /// What holds off rigid stops.
     pub(crate) fn off_stops(self) -> Self {
         Self { leans: [false; 2], ..self }
+    }
+
+    /// What springs and stops do at rest, as a force in slip is said.
+    pub(crate) fn force(&self) -> SlipForce {
+        SlipForce {
+            restraint: Restraint::default(),
+            is_pressed: false,
+            force_n: self.force_n,
+            of_normal: self.of_normal,
+            of_normal_s: 0.0,
+            is_friction: false,
+            sign: 0.0,
+            coefficient: Coefficient::Linear { at_rest: 0.0, slope_s_per_m: 0.0 },
+        }
     }
 
     /// The forces that friction alone holds under a normal force.

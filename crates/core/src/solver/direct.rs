@@ -26,7 +26,7 @@ use crate::numerics::InstructionSet;
 use crate::progress::{GoOn, Pulse};
 use crate::response::output::{self, Output};
 use crate::response::{ContentsDemands, Event, EventKind, History, Mode};
-use crate::slider::{Coefficient, Hold, Law, Restraint, SlipForce};
+use crate::slider::{Hold, Law, SlipForce};
 
 use super::summary::Outcome;
 
@@ -454,21 +454,5 @@ impl<'a> Straight<'a> for Direct<'a> {
 
     fn look(&mut self, course: &mut Course<'a>, _: &Stretch, segment: &Segment) {
         self.look_at_outputs(course, segment.part);
-    }
-}
-
-impl Hold {
-    /// What springs and stops do at rest, as a force in slip is said.
-    fn force(&self) -> SlipForce {
-        SlipForce {
-            restraint: Restraint::default(),
-            is_pressed: false,
-            force_n: self.force_n,
-            of_normal: self.of_normal,
-            of_normal_s: 0.0,
-            is_friction: false,
-            sign: 0.0,
-            coefficient: Coefficient::Linear { at_rest: 0.0, slope_s_per_m: 0.0 },
-        }
     }
 }
