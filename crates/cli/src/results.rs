@@ -83,7 +83,7 @@ pub fn conclude(
 }
 
 /// Prints and writes the answer to a request.
-pub fn tell(
+pub fn emit(
     args: &ResultArgs,
     folder: Option<OutputFolder>,
     answer: Answer,

@@ -25,7 +25,7 @@ mod structure;
 use core::fmt;
 
 use self::energy::Books;
-use self::judge::{Given, Judge};
+use self::judge::{Judge, JudgeInput};
 use self::law::Law;
 use self::outputs::Outputs;
 use self::structure::{Phase, Structure};
@@ -229,7 +229,7 @@ pub fn check_while(
         let (law, outputs, pulse) =
             (Law::new(model, vertical), Outputs::new(model), Pulse::new(go_on));
         let (law, outputs) = (&law, &outputs);
-        let given = Given { model, motion, response, history, law, outputs, pulse };
+        let given = JudgeInput { model, motion, response, history, law, outputs, pulse };
         Judge::of_line(given, &structure).run(bound)
     };
     let judged = judged.map_or(Ok(None), run)?;

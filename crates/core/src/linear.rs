@@ -16,7 +16,7 @@ mod solution;
 mod system;
 
 pub use frame::{FrameModes, shear_frame_frequencies, shear_frame_modes};
-pub use maps::{BATCH, Force, Maps, QUIET, Row, Units, Window};
+pub use maps::{BATCH, Force, Maps, QUIET, Row, UnitResponses, Window};
 pub use series::{Load, MAX_RATE_STEP, Series, fading_part, orders};
-pub use solution::Solution;
+pub use solution::IntervalTables;
 pub use system::{StoreyDamping, System};

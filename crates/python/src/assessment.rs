@@ -20,7 +20,7 @@ use slipstick_report::assessment::{Provenance, Sheet, answer};
 use crate::errors::{of_argument, of_assessment, of_file, of_job, warn, warn_severe};
 use crate::model::Model;
 use crate::motion::Motion;
-use crate::requests::{Asked, asked};
+use crate::requests::{FieldTexts, asked};
 use crate::table::Table;
 use crate::values::quantity;
 use crate::work::followed;
@@ -165,7 +165,7 @@ pub(crate) fn assess(
     model: &Model,
     records: Named,
     second: Named,
-    given: Asked,
+    given: FieldTexts,
     jobs: Option<i64>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Assessment> {
@@ -188,7 +188,7 @@ pub(crate) fn suite(
     models: Vec<(String, Model)>,
     records: Named,
     second: Named,
-    given: Asked,
+    given: FieldTexts,
     target: Option<PathBuf>,
     jobs: Option<i64>,
     progress: Option<Py<PyAny>>,
@@ -213,7 +213,7 @@ pub(crate) fn suite(
 pub(crate) fn fit(
     py: Python<'_>,
     table: &Table,
-    given: Asked,
+    given: FieldTexts,
     limit: Option<f64>,
     jobs: Option<i64>,
     progress: Option<Py<PyAny>>,

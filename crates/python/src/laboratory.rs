@@ -21,14 +21,14 @@ use slipstick_report::{CompareReport, DisplayUnits};
 use crate::errors::{of_choice, of_compare, of_file, of_identify, of_laboratory};
 use crate::model::Model;
 use crate::motion::Motion;
-use crate::requests::{Asked, asked};
+use crate::requests::{FieldTexts, asked};
 use crate::response::display_units;
 use crate::table::Table;
 use crate::work::followed;
 
 /// A measured file, or its columns by name.
 #[derive(FromPyObject)]
-pub(crate) enum Given<'py> {
+pub(crate) enum MeasuredFile<'py> {
     Path(PathBuf),
     Columns(Vec<(String, PyReadonlyArray1<'py, f64>)>),
 }
@@ -46,14 +46,18 @@ impl Columned {
     }
 
     /// What is measured; of a file, where it is.
-    fn read(&self, py: Python<'_>, given: &Given<'_>) -> PyResult<(Measured, Option<SourceFile>)> {
+    fn read(
+        &self,
+        py: Python<'_>,
+        given: &MeasuredFile<'_>,
+    ) -> PyResult<(Measured, Option<SourceFile>)> {
         match given {
-            Given::Path(path) => {
+            MeasuredFile::Path(path) => {
                 let read = py.detach(|| read_measured(path, &self.mapping));
                 let (measured, source) = read.map_err(|error| of_laboratory(py, &error))?;
                 Ok((measured, Some(source)))
             }
-            Given::Columns(columns) => {
+            MeasuredFile::Columns(columns) => {
                 let column = |(name, values): &(String, PyReadonlyArray1<'_, f64>)| {
                     let values = values.as_slice()?.to_vec();
                     Ok(Column { is_time: false, name: name.clone(), values })
@@ -172,9 +176,9 @@ impl Comparison {
 #[pyo3(signature = (measured, model, given))]
 pub(crate) fn compare_with(
     py: Python<'_>,
-    measured: Given<'_>,
+    measured: MeasuredFile<'_>,
     mut model: Model,
-    given: Asked,
+    given: FieldTexts,
 ) -> PyResult<Comparison> {
     let asked = asked(py, Kind::Compare.name(), given)?;
     let Comparing { within, method } = asked.comparing().map_err(|error| of_choice(py, &error))?;
@@ -294,9 +298,9 @@ impl Identified {
 pub(crate) fn identify(
     py: Python<'_>,
     kind: &str,
-    tests: Vec<Given<'_>>,
+    tests: Vec<MeasuredFile<'_>>,
     model: Option<Model>,
-    given: Asked,
+    given: FieldTexts,
     jobs: Option<i64>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Identified> {
@@ -305,12 +309,12 @@ pub(crate) fn identify(
     let (mut measured, mut sources) = (Vec::new(), Vec::new());
     for test in tests {
         let expanded = match test {
-            Given::Path(path) => {
+            MeasuredFile::Path(path) => {
                 let files = expand_all(Path::new(""), &[path.to_string_lossy()])
                     .map_err(|error| of_file(py, &error))?;
-                files.into_iter().map(Given::Path).collect()
+                files.into_iter().map(MeasuredFile::Path).collect()
             }
-            columns @ Given::Columns(_) => vec![columns],
+            columns @ MeasuredFile::Columns(_) => vec![columns],
         };
         for one in expanded {
             let (one, source) = columned.read(py, &one)?;

@@ -11,10 +11,10 @@ use crate::errors::{of_argument, of_assessment, of_choice, of_input};
 use crate::values::{plain, quantity};
 
 /// What is given, `(keyword, text)`.
-pub(crate) type Asked = Vec<(String, String)>;
+pub(crate) type FieldTexts = Vec<(String, String)>;
 
 /// What is asked of an analysis.
-pub(crate) fn asked(py: Python<'_>, kind: &str, given: Asked) -> PyResult<Request> {
+pub(crate) fn asked(py: Python<'_>, kind: &str, given: FieldTexts) -> PyResult<Request> {
     let names = Kind::ALL.map(Kind::name).join(", ");
     let kind = Kind::of_name(kind).ok_or_else(|| of_argument(py, "kind", &names, kind))?;
     let given = given.into_iter().map(|(name, text)| (name.replace('_', "-"), text));

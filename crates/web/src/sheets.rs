@@ -316,11 +316,11 @@ struct Job<'a> {
     name: String,
     analysis: Analysis,
     suite: Suite,
-    taken: Vec<Taken>,
+    taken: Vec<RecordOfSuite>,
 }
 
 /// A file of the suite as it was read.
-struct Taken {
+struct RecordOfSuite {
     path: String,
     /// What it was dropped as.
     file: String,
@@ -331,8 +331,8 @@ struct Taken {
     description: String,
 }
 
-impl Taken {
-    fn told(&self) -> (String, Option<String>, String) {
+impl RecordOfSuite {
+    fn words(&self) -> (String, Option<String>, String) {
         (self.path.clone(), self.text.clone(), self.file.clone())
     }
 }
@@ -460,7 +460,7 @@ pub fn assess(
     }));
     let again = Again {
         commands: job.settings.commands(kind, display),
-        records: job.taken.iter().map(Taken::told).collect(),
+        records: job.taken.iter().map(RecordOfSuite::words).collect(),
         tables: runs::tables(&tabled, display),
     };
     Ok(Page::new((&sheet, exported.as_ref()), &inputs, &files, &again))
@@ -472,7 +472,7 @@ fn suite(
     settings: &Settings<'_>,
     analysis: &Analysis,
     text: &str,
-) -> Result<(Suite, Vec<Taken>), Failure> {
+) -> Result<(Suite, Vec<RecordOfSuite>), Failure> {
     let (mut read, mut taken) = (Vec::new(), Vec::new());
     let alike = settings.unsaid().is_some();
     for asks in settings.records() {
@@ -495,7 +495,7 @@ fn suite(
         let sha256 = bytes.map_or_else(String::new, crate::sha256);
         let description = loaded.description.first().cloned().unwrap_or_default();
         let file = name.to_owned();
-        taken.push(Taken { path: path.clone(), file, text: written, sha256, description });
+        taken.push(RecordOfSuite { path: path.clone(), file, text: written, sha256, description });
         read.push((path, loaded));
     }
     let channel_asked =
@@ -511,7 +511,7 @@ fn suite(
         taken = files
             .map(|((path, sha256), description)| {
                 let (file, description) = (path.clone(), description.clone());
-                Taken { path, file, text: None, sha256, description }
+                RecordOfSuite { path, file, text: None, sha256, description }
             })
             .collect();
         read.push((loaded.description.join("; "), loaded));

@@ -17,7 +17,7 @@ use crate::args::{AssessArgs, FragilityArgs};
 use crate::failure::Failure;
 use crate::opened::Opened;
 use crate::progress::{TRIAL, counted, estimated};
-use crate::results::{folder, tell};
+use crate::results::{emit, folder};
 
 /// Runs, prints and writes; status 1 where a run has no answer, or no design is found.
 pub fn assess<const KIND: usize>(args: &AssessArgs<KIND>) -> Result<ExitCode, Failure> {
@@ -26,7 +26,7 @@ pub fn assess<const KIND: usize>(args: &AssessArgs<KIND>) -> Result<ExitCode, Fa
     let result = &args.suite.result;
     let folder = opened.folder(result)?;
     let answer = opened.compute(&args.suite, |engine| asked.run(&opened.on(), engine))?;
-    tell(result, folder, answer, &opened.inputs())
+    emit(result, folder, answer, &opened.inputs())
 }
 
 /// Fits, prints and writes.
@@ -52,7 +52,7 @@ pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
         run.kind.name().clone_into(kind);
     }
     let folder = folder(&args.result, &inputs.paths())?;
-    tell(&args.result, folder, answer, &inputs)
+    emit(&args.result, folder, answer, &inputs)
 }
 
 /// Time that reading a source may take, from its first lines or its first parts.

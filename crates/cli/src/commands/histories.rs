@@ -11,7 +11,7 @@ use crate::args::RunArgs;
 use crate::failure::Failure;
 use crate::model_file::read_model;
 use crate::opened::{Opened, open_records};
-use crate::results::{folder, tell};
+use crate::results::{emit, folder};
 
 /// Runs, prints and writes; status 1 where a certificate does not hold.
 pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
@@ -67,7 +67,7 @@ pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
         let target = target.as_ref().map(|(path, spectrum)| (path.as_str(), spectrum.clone()));
         asked.suite(&on, target, engine)
     })?;
-    tell(&suite.result, folder, answer, &inputs)
+    emit(&suite.result, folder, answer, &inputs)
 }
 
 /// Names of the models: of several the stems of their files, or their paths where stems repeat.

@@ -65,7 +65,7 @@ pub(super) struct Sizes {
 }
 
 /// What is judged.
-pub(super) struct Given<'a> {
+pub(super) struct JudgeInput<'a> {
     pub(super) model: &'a Model,
     pub(super) motion: &'a GroundMotion,
     pub(super) response: &'a Response,
@@ -150,8 +150,8 @@ where
     Self: Directions,
 {
     /// `slides`: whether the block starts with a velocity.
-    pub(super) fn new(given: Given<'a>, slides: bool, axes: A) -> Self {
-        let Given { model, motion, response, history, law, outputs, pulse } = given;
+    pub(super) fn new(given: JudgeInput<'a>, slides: bool, axes: A) -> Self {
+        let JudgeInput { model, motion, response, history, law, outputs, pulse } = given;
         let end_s = history.time_s.last().copied().unwrap_or(0.0);
         let ground = Ground::new(model, motion, end_s);
         let mut at_start = vec![Mode::Stick; history.interfaces];

@@ -21,7 +21,7 @@ use self::watch::Watched;
 use super::collocation::Rule;
 use super::demands::{self, Comparison, Recomputed, Rounding};
 use super::energy::Books;
-use super::judge::{Directions, Given, Judge, Run, Sizes};
+use super::judge::{Directions, Judge, JudgeInput, Run, Sizes};
 use super::structure::{Phase, Structure, excess, larger};
 use super::{ClosestCall, DecisionKind};
 use crate::error::Stopped;
@@ -55,7 +55,7 @@ pub(super) struct Line<'a> {
 
 impl<'a> Judge<'a, Line<'a>> {
     /// A judgement of a motion in one direction.
-    pub(super) fn of_line(given: Given<'a>, structure: &'a Structure) -> Self {
+    pub(super) fn of_line(given: JudgeInput<'a>, structure: &'a Structure) -> Self {
         let slides = given.model.initial().sliding_velocity_m_per_s != 0.0;
         let times_s = given.motion.times_s();
         let line = Line {
@@ -395,9 +395,9 @@ mod tests {
     fn given<'a>(
         (model, motion, response): (&'a Model, &'a GroundMotion, &'a Response),
         (law, outputs): (&'a Law, &'a Outputs),
-    ) -> Given<'a> {
+    ) -> JudgeInput<'a> {
         let history = response.history.as_ref().unwrap();
-        Given { model, motion, response, history, law, outputs, pulse: Pulse::new(UNWATCHED) }
+        JudgeInput { model, motion, response, history, law, outputs, pulse: Pulse::new(UNWATCHED) }
     }
 
     /// The step that a record has is swept with a tail too, which begins with a jump.

@@ -14,7 +14,7 @@ mod step;
 mod straight;
 
 use super::ground::Ground;
-use super::judge::Given;
+use super::judge::JudgeInput;
 use super::law::Law;
 use super::outputs::Outputs;
 use super::{Certificate, MAX_RADIANS, unjudged, well_formed};
@@ -60,7 +60,7 @@ pub(super) fn check(
     let widths = [model.block().width_m, model.along_y().width_m];
     let outputs = Outputs::with_moment(model, widths.iter().any(Option::is_some));
     let (law, outputs, pulse) = (&law, &outputs, Pulse::new(go_on));
-    let given = Given { model, motion, response, history: h, law, outputs, pulse };
+    let given = JudgeInput { model, motion, response, history: h, law, outputs, pulse };
     PlaneJudge::of_plane(given, (plane, along_y, table_y), &frame)
         .run(bound)?
         .map_or_else(unjudged, Ok)

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::keys::MODEL;
 use super::overrides::kind_of;
-use super::reader::{Given, Values};
+use super::reader::{LeafValue, Values};
 use super::schema::Kind;
 use super::tree::{self, Node, Sources, Table, Value};
 use super::{Override, build, write};
@@ -65,7 +65,7 @@ fn tree_of(source_name: &str, text: &str) -> Result<(Sources, Table), InputError
 
 /// Whether two texts say the same.
 fn alike(a: &Values, b: &Values) -> bool {
-    let said = |values: &Values| -> Vec<(String, Given)> {
+    let said = |values: &Values| -> Vec<(String, LeafValue)> {
         values.leaves.iter().map(|leaf| (leaf.path.clone(), leaf.given.clone())).collect()
     };
     said(a) == said(b)

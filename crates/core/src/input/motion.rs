@@ -1,6 +1,6 @@
 //! Where the table's motion comes from.
 
-use super::reader::{Given, Values};
+use super::reader::{LeafValue, Values};
 use crate::error::{InputError, MotionError};
 use crate::motion::{GroundMotion, Pulse, PulseShape, Sine, Sweep, SweepKind};
 use crate::record::Units;
@@ -148,7 +148,9 @@ fn record(values: &Values) -> RecordSource {
     let units = |path| {
         values.leaf(path).and_then(|leaf| match leaf.given {
             // As written, perhaps with the value of one count before it.
-            Given::Unit(unit) => Units::parse(&leaf.written).or_else(|| Units::parse(unit.name())),
+            LeafValue::Unit(unit) => {
+                Units::parse(&leaf.written).or_else(|| Units::parse(unit.name()))
+            }
             _ => None,
         })
     };

@@ -12,7 +12,7 @@ use crate::units::{self, Unit};
 
 /// What a key was given.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Given {
+pub(super) enum LeafValue {
     /// A number, in SI where it has a unit.
     Number(f64),
     Text(String),
@@ -24,7 +24,7 @@ pub(super) enum Given {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Leaf {
     pub path: String,
-    pub given: Given,
+    pub given: LeafValue,
     pub written: String,
     /// The SI unit of the value, empty where it has none.
     pub unit: &'static str,
@@ -84,7 +84,7 @@ impl Values {
             return Some(*number);
         }
         match self.leaves.get(index)?.given {
-            Given::Number(value) => Some(value),
+            LeafValue::Number(value) => Some(value),
             _ => None,
         }
     }
@@ -97,8 +97,8 @@ impl Values {
     /// The text or word at a path.
     pub fn text(&self, path: &str) -> Option<&str> {
         match &self.leaf(path)?.given {
-            Given::Text(text) => Some(text),
-            Given::Word(word) => Some(word),
+            LeafValue::Text(text) => Some(text),
+            LeafValue::Word(word) => Some(word),
             _ => None,
         }
     }
@@ -162,7 +162,7 @@ impl Values {
     /// Replaces the number at a path; `false` where there is none.
     pub fn set_number(&mut self, path: &str, value: f64) -> bool {
         let Some(&index) = self.leaf_of_path.get(path) else { return false };
-        if !matches!(self.leaves.get(index), Some(Leaf { given: Given::Number(_), .. })) {
+        if !matches!(self.leaves.get(index), Some(Leaf { given: LeafValue::Number(_), .. })) {
             return false;
         }
         match self.replaced.iter_mut().find(|(of, _)| *of == index) {
@@ -207,7 +207,7 @@ impl Values {
     pub fn wrong(&self, path: &str, expected: impl Into<String>) -> InputError {
         let found = self.leaf(path).map_or("nothing".to_owned(), |leaf| match leaf.given {
             // A number with a unit is text.
-            Given::Number(_) if leaf.unit.is_empty() => cut(&leaf.written),
+            LeafValue::Number(_) if leaf.unit.is_empty() => cut(&leaf.written),
             _ => format!("\"{}\"", cut(&leaf.written)),
         });
         self.error(path, expected, found)
@@ -313,7 +313,7 @@ impl Values {
                     let path = join(path, &(index + 1).to_string());
                     match &item.value {
                         Value::Text(text) if !text.is_empty() => {
-                            self.insert(path, item, Given::Text(text.clone()), "");
+                            self.insert(path, item, LeafValue::Text(text.clone()), "");
                         }
                         _ => return Err(self.mistyped(&path, item, "text in quotes")),
                     }
@@ -383,17 +383,17 @@ impl Values {
             (Kind::Text(_) | Kind::NameOrIndex | Kind::Texts(_), Value::Text(text))
                 if !text.is_empty() =>
             {
-                Given::Text(text.clone())
+                LeafValue::Text(text.clone())
             }
             (Kind::Whole(least, most), Value::Number(value, _))
                 if *value >= *least as f64 && *value <= *most as f64 && value.fract() == 0.0 =>
             {
-                Given::Number(*value)
+                LeafValue::Number(*value)
             }
             (Kind::NameOrIndex, Value::Number(value, _))
                 if *value >= 1.0 && *value <= f64::from(u32::MAX) && value.fract() == 0.0 =>
             {
-                Given::Number(*value)
+                LeafValue::Number(*value)
             }
             (Kind::Word(words), Value::Text(text)) => {
                 let Some(word) = words.iter().find(|word| *word == text) else {
@@ -401,11 +401,11 @@ impl Values {
                     error.nearest = similar(text, words.iter().copied());
                     return Err(error);
                 };
-                Given::Word(word)
+                LeafValue::Word(word)
             }
             (Kind::UnitOf(dimension), Value::Text(text)) => {
                 let unit = units::parse_unit(after_count(text), *dimension);
-                Given::Unit(unit.map_err(|error| self.bad_unit(path, node, error))?)
+                LeafValue::Unit(unit.map_err(|error| self.bad_unit(path, node, error))?)
             }
             (Kind::QuantityOrRatio(_, range), Value::Number(value, _)) => {
                 self.number_in_range(path, node, *value, *range)?
@@ -439,7 +439,7 @@ impl Values {
         Ok(())
     }
 
-    fn insert(&mut self, path: String, node: &Node, given: Given, unit: &'static str) {
+    fn insert(&mut self, path: String, node: &Node, given: LeafValue, unit: &'static str) {
         let written = match &node.value {
             Value::Text(text) => text.clone(),
             Value::Number(_, written) | Value::Si(_, written) => written.clone(),
@@ -462,7 +462,7 @@ impl Values {
         node: &Node,
         dimension: units::Dimension,
         range: Range,
-    ) -> Result<Given, InputError> {
+    ) -> Result<LeafValue, InputError> {
         let value = match &node.value {
             Value::Text(text) => units::parse_quantity(text, dimension)
                 .map_err(|error| self.bad_unit(path, node, error))?,
@@ -472,13 +472,18 @@ impl Values {
             }
         };
         if range.contains(value) {
-            return Ok(Given::Number(value));
+            return Ok(LeafValue::Number(value));
         }
         Err(self.mistyped(path, node, range.refusal(dimension.name(), value)))
     }
 
     /// A number without a unit, perhaps in percent.
-    pub fn bare_number(&self, path: &str, node: &Node, range: Range) -> Result<Given, InputError> {
+    pub fn bare_number(
+        &self,
+        path: &str,
+        node: &Node,
+        range: Range,
+    ) -> Result<LeafValue, InputError> {
         match node.ratio() {
             Some(value) => self.number_in_range(path, node, value, range),
             None => Err(self.mistyped(path, node, range.expected("number"))),
@@ -491,9 +496,9 @@ impl Values {
         node: &Node,
         value: f64,
         range: Range,
-    ) -> Result<Given, InputError> {
+    ) -> Result<LeafValue, InputError> {
         if range.contains(value) {
-            return Ok(Given::Number(value));
+            return Ok(LeafValue::Number(value));
         }
         Err(self.mistyped(path, node, range.refusal("number", value)))
     }

@@ -1,7 +1,7 @@
 //! Values back to text.
 
 use super::overrides::kind_of;
-use super::reader::{Given, Leaf, Values};
+use super::reader::{Leaf, LeafValue, Values};
 use super::schema::Kind;
 
 /// What becomes of the motion in a text.
@@ -142,7 +142,7 @@ fn header(section: &str, at_start: bool) -> String {
 
 fn value(leaf: &Leaf) -> String {
     match leaf.given {
-        Given::Number(_) if leaf.unit.is_empty() => leaf.written.clone(),
+        LeafValue::Number(_) if leaf.unit.is_empty() => leaf.written.clone(),
         _ => quoted(&leaf.written),
     }
 }

@@ -76,7 +76,7 @@ pub struct Row(Vec<Eight>);
 
 /// What unit inputs leave behind over one step and more, as padded states one after another.
 #[derive(Debug)]
-pub struct Units {
+pub struct UnitResponses {
     stride: usize,
     /// `E^k` from `k = 1`, column by column.
     powers: Vec<f64>,
@@ -91,10 +91,10 @@ pub struct Units {
     samples: Vec<Eight>,
 }
 
-/// How many of [`Units::samples`] come before the columns of the powers, in components of a state.
+/// How many of [`UnitResponses::samples`] come before the columns of the powers, in components of a state.
 const INPUTS: usize = 5;
 
-impl Units {
+impl UnitResponses {
     /// By the series of every unit input.
     #[inline(always)]
     #[must_use]

@@ -29,7 +29,7 @@ const SHORT: usize = 8;
 /// where neither the force nor the block's own motion does anything, the state with the acceleration and
 /// its change in the place of `s` and `ṡ`.
 #[derive(Debug)]
-pub struct Solution {
+pub struct IntervalTables {
     slip: bool,
     length_s: f64,
     orders: usize,
@@ -50,7 +50,7 @@ struct Parts {
     number: Vec<Four>,
 }
 
-impl Solution {
+impl IntervalTables {
     /// Tables of a system and of one number of it, `row` times the state, `of_a` times the
     /// acceleration and `of_force` times the force; in stick without what `s` adds.
     #[inline(always)]

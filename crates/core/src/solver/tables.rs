@@ -9,7 +9,7 @@ use super::dense;
 use super::outputs::{self, Arms, Outputs};
 use crate::linear::polynomial::DEGREE;
 use crate::linear::{
-    BATCH, MAX_RATE_STEP, Maps, Row, Solution, StoreyDamping, System, Units, orders,
+    BATCH, IntervalTables, MAX_RATE_STEP, Maps, Row, StoreyDamping, System, UnitResponses, orders,
 };
 use crate::model::{Damping, Model};
 use crate::numerics::InstructionSet;
@@ -97,7 +97,7 @@ pub(super) struct PhaseTables {
     /// Length of one series in s: a whole part of the step.
     pub(super) unit_s: f64,
     /// The motion over that, with the sliding velocity in slip and the demand on friction in stick.
-    pub(super) solution: Solution,
+    pub(super) solution: IntervalTables,
     pub(super) outputs: Outputs,
     /// How much the energy norm can grow over one series: friction that falls with the speed feeds it.
     pub(super) growth: f64,
@@ -293,7 +293,7 @@ impl PhaseTables {
         let unit_s = unit_s(rate, dt_s);
         let tracked = &rows[if slip { output::VELOCITY } else { output::FRICTION }];
         let tracked = (tracked.state.as_slice(), tracked.of_a, tracked.of_friction);
-        let solution = Solution::new(simd, &system, slip, (unit_s, orders), tracked);
+        let solution = IntervalTables::new(simd, &system, slip, (unit_s, orders), tracked);
         let batch_s = batch_s
             .filter(|dt_s| system.storeys <= BATCH_STOREYS && dt_s * rate <= BATCH_RATE_STEP);
         let growth = if slip { system.growth(unit_s) } else { 1.0 };
@@ -325,7 +325,7 @@ impl Batch {
     fn new<S: Simd>(simd: S, phase: &PhaseTables, dt_s: f64) -> Self {
         let PhaseTables { ref system, slip, .. } = *phase;
         let rows = &phase.outputs.rows;
-        let units = Units::new(simd, system, slip, dt_s);
+        let units = UnitResponses::new(simd, system, slip, dt_s);
         let mut of_s = vec![0.0; rows[0].state.len()];
         of_s[0] = 1.0;
         let mut of_rows = Vec::with_capacity(rows.len());

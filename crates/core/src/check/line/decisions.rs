@@ -116,7 +116,7 @@ impl<'a> Judge<'a, Line<'a>> {
         if gone.len() > 1 {
             asked.ask(list, before, None);
             for &i in &gone {
-                asked.ask(list, &let_go(before, after, i), None);
+                asked.ask(list, &release(before, after, i), None);
             }
         }
         let (modes, loads) = (list..asked.modes.len() / asked.interfaces, load..asked.loads.len());
@@ -309,7 +309,7 @@ impl<'a> Judge<'a, Line<'a>> {
         };
         let mut calls = Vec::new();
         for &i in &gone {
-            let modes = let_go(before, after, i);
+            let modes = release(before, after, i);
             for &j in gone.iter().filter(|&&j| j != i) {
                 if at(&to, &modes, j).beyond() <= 0.0 {
                     let (a, b) = (reached(i), reached(j));
@@ -371,7 +371,7 @@ impl<'a> Judge<'a, Line<'a>> {
 }
 
 /// Modes before a knot, but for one interface, which has let go.
-fn let_go(before: &[Mode], after: &[Mode], i: usize) -> Vec<Mode> {
+fn release(before: &[Mode], after: &[Mode], i: usize) -> Vec<Mode> {
     let mut modes = before.to_vec();
     modes[i] = after[i];
     modes

@@ -132,7 +132,7 @@ impl Spread {
 }
 
 /// What unit inputs make of an interval in equal steps.
-pub(super) struct Units {
+pub(super) struct UnitResponses {
     /// Of the interval, if it is one step.
     pub(super) maps: Maps,
     /// Of the interval: Legendre's terms of all velocities, then the velocities at its end.
@@ -149,7 +149,7 @@ impl LaneJudge<'_> {
         (length_s, steps): (f64, usize),
         terms: usize,
         work: &mut Work,
-    ) -> Units {
+    ) -> UnitResponses {
         let (d, count) = (self.structure.degrees(), self.inputs());
         let group = Group::of_key(self, key, length_s / steps as f64);
         let (mut paths, mut places, mut sums) = (Vec::new(), Vec::new(), Vec::new());
@@ -229,7 +229,7 @@ impl LaneJudge<'_> {
             .map(|i| d + self.structure.degree_of(i))
             .collect();
         let map = |columns: &[f64]| Map::new(&zero, count, columns);
-        Units {
+        UnitResponses {
             maps: Maps { path: map(&paths), places: map(&places) },
             sums: map(&sums),
             spread: Spread { longest_s: length_s, leaving, loud: Vec::new() },

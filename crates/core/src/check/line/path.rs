@@ -62,7 +62,7 @@ impl LaneJudge<'_> {
         for i in 0..pass.work.seen.len() {
             let at = self.structure.degree_of(i);
             let Work { seen, watch, fastest, .. } = &mut *pass.work;
-            seen[i].tell(simd, &mut watch[i]);
+            seen[i].least_into(simd, &mut watch[i]);
             watch[i].fastest = fastest[at];
         }
         self.arrive(simd, n, group, &places, pass);

@@ -71,7 +71,7 @@ impl Extremes {
 
     /// The least, and what it cannot fall below in between.
     #[inline(always)]
-    pub(super) fn tell<S: Simd>(&self, simd: S, told: &mut Watch<Eight>) {
+    pub(super) fn least_into<S: Simd>(&self, simd: S, told: &mut Watch<Eight>) {
         let least = self.least.load(simd);
         let range = self.most.load(simd) - least;
         let flat = range.simd_le(all(simd, 4e-12));

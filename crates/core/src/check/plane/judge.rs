@@ -4,7 +4,7 @@ use super::super::collocation::Rule;
 use super::super::demands::{Comparison, Rounding};
 use super::super::energy::Books;
 use super::super::ground::{Ground, Load, nearest};
-use super::super::judge::{Directions, Given, Judge, Run, Sizes};
+use super::super::judge::{Directions, Judge, JudgeInput, Run, Sizes};
 use super::super::law::StickDemand;
 use super::super::structure::{excess, larger};
 use super::super::{ClosestCall, DecisionKind};
@@ -77,7 +77,7 @@ pub(super) type PlaneJudge<'a> = Judge<'a, Plane<'a>>;
 impl<'a> PlaneJudge<'a> {
     /// A judgement of what is printed, and of its part along y.
     pub(super) fn of_plane(
-        given: Given<'a>,
+        given: JudgeInput<'a>,
         (printed, along_y, table_y): (&'a InPlane, &'a HistoryAlongY, &'a [f64]),
         frame: &'a PlaneFrame<'a>,
     ) -> Self {

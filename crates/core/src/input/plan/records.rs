@@ -2,7 +2,7 @@
 
 use super::{Levels, Records, Target};
 use crate::error::{InputError, MeasureError};
-use crate::input::reader::{Given, Values};
+use crate::input::reader::{LeafValue, Values};
 use crate::input::schema::{Range, Special};
 use crate::input::tree::{Node, Value};
 use crate::motion::intensity::LevelMeasure;
@@ -21,7 +21,7 @@ pub(super) fn read(values: &Values) -> Result<Option<Records>, InputError> {
         return Err(values.error("records.files", "at least one file or pattern", "none"));
     }
     let unit_name = values.leaf("records.units").and_then(|leaf| match leaf.given {
-        Given::Unit(unit) => Some(unit.name()),
+        LeafValue::Unit(unit) => Some(unit.name()),
         _ => None,
     });
     Ok(Some(Records {
@@ -117,10 +117,10 @@ fn levels(values: &Values) -> Result<Levels, InputError> {
     for (index, item) in items.iter().enumerate() {
         let place = format!("records.levels.{}", index + 1);
         match values.quantity(&place, item, dimension, Range::Positive)? {
-            Given::Number(level) if levels.contains(&level) => {
+            LeafValue::Number(level) if levels.contains(&level) => {
                 return Err(values.mistyped(&place, item, "a level that is not named before"));
             }
-            Given::Number(level) => levels.push(level),
+            LeafValue::Number(level) => levels.push(level),
             _ => return Err(values.mistyped(&place, item, dimension.with_article())),
         }
     }

@@ -5,7 +5,7 @@ use crate::error::{InputError, cut, similar};
 use crate::input::overrides::{find_kind, kind_of};
 use crate::input::paths::join;
 use crate::input::plan_keys::{DISTRIBUTION, MAX_RUNS};
-use crate::input::reader::{Given, Values};
+use crate::input::reader::{LeafValue, Values};
 use crate::input::schema::{Kind, Range};
 use crate::input::tree::{Entry, Node, Spot, Table, Value};
 use crate::units::Dimension;
@@ -318,9 +318,9 @@ impl Reader<'_> {
     }
 }
 
-fn number(given: Given) -> f64 {
+fn number(given: LeafValue) -> f64 {
     match given {
-        Given::Number(value) => value,
+        LeafValue::Number(value) => value,
         _ => f64::NAN,
     }
 }

@@ -5,7 +5,7 @@ use crate::numerics::random::Random;
 
 /// A cyclic test: an actuator of finite stiffness drags the block against friction, spring and
 /// damper, without inertia. It sticks while the force of the actuator is below static friction.
-pub struct Made {
+pub struct SyntheticTest {
     pub times_s: Vec<f64>,
     pub displacement_m: Vec<f64>,
     pub force_n: Vec<f64>,
@@ -16,7 +16,7 @@ pub const KINETIC_N: [f64; 2] = [186.0, 174.0];
 pub const SPRING: f64 = 4000.0;
 pub const DAMPER: f64 = 30.0;
 
-pub fn made(frequency_hz: f64, cycles: f64, noise: [f64; 2], seed: u64) -> Made {
+pub fn made(frequency_hz: f64, cycles: f64, noise: [f64; 2], seed: u64) -> SyntheticTest {
     made_by(frequency_hz, cycles, noise, seed, false)
 }
 
@@ -25,7 +25,13 @@ const EVEN_N: [f64; 2] = [200.0, 180.0];
 
 /// The same, or with a machine so steady that samples fall on the same part of every cycle, and friction
 /// alike both ways: then both share one error, the worst case for their mean.
-fn made_by(frequency_hz: f64, cycles: f64, noise: [f64; 2], seed: u64, locked: bool) -> Made {
+fn made_by(
+    frequency_hz: f64,
+    cycles: f64,
+    noise: [f64; 2],
+    seed: u64,
+    locked: bool,
+) -> SyntheticTest {
     let (amplitude_m, actuator) = (0.02, 2e5);
     let mut random = Random::new(seed);
     let free = if locked { 0.0 } else { 0.01 * random.uniform() };
@@ -38,7 +44,7 @@ fn made_by(frequency_hz: f64, cycles: f64, noise: [f64; 2], seed: u64, locked: b
     let wander = TAU * random.uniform();
     let late = if locked { random.uniform() } else { 0.0 };
     let (mut x, mut sliding) = (0.0_f64, false);
-    let mut out = Made { times_s: vec![], displacement_m: vec![], force_n: vec![] };
+    let mut out = SyntheticTest { times_s: vec![], displacement_m: vec![], force_n: vec![] };
     for i in 0..n * FINE {
         let t = i as f64 * dt_s / FINE as f64;
         let turns = TAU * frequency_hz * (t + late * dt_s);
@@ -69,7 +75,7 @@ fn made_by(frequency_hz: f64, cycles: f64, noise: [f64; 2], seed: u64, locked: b
     out
 }
 
-fn test(made: &Made) -> CyclicTest<'_> {
+fn test(made: &SyntheticTest) -> CyclicTest<'_> {
     CyclicTest {
         times_s: &made.times_s,
         displacement_m: &made.displacement_m,
@@ -264,7 +270,7 @@ fn coverage_cyclic_locked() {
 #[test]
 fn friction_by_direction_needs_the_zero() {
     let mut made = made(0.5, 9.3, [1e-5, 1.5], 1);
-    let of = |made: &Made, zero_known: bool| {
+    let of = |made: &SyntheticTest, zero_known: bool| {
         let fit = cyclic(&CyclicTest { zero_known, ..test(made) }).unwrap();
         estimates(&[&fit], 300.0, None).estimates
     };
@@ -297,12 +303,13 @@ fn silent_is_refused(seed: u64) -> bool {
     let force_n: Vec<f64> =
         times_s.iter().map(|t| 100.0 * libm::sin(3.0 * t) + random.normal()).collect();
     let displacement_m: Vec<f64> = times_s.iter().map(|_| 1e-5 * random.normal()).collect();
-    let stuck = Made { times_s: times_s.clone(), displacement_m, force_n: force_n.clone() };
+    let stuck =
+        SyntheticTest { times_s: times_s.clone(), displacement_m, force_n: force_n.clone() };
     let stuck = matches!(cyclic(&test(&stuck)), Err(CyclicError::NoSliding { .. }));
     // A spring alone: the loop has no width.
     let displacement_m =
         times_s.iter().map(|t| 0.025 * libm::sin(3.0 * t) + 1e-5 * random.normal()).collect();
-    let spring = Made { times_s, displacement_m, force_n };
+    let spring = SyntheticTest { times_s, displacement_m, force_n };
     let fit = cyclic(&test(&spring)).unwrap();
     let found = estimates(&[&fit], 100.0, None).estimates;
     let stiff = found[6].value().unwrap();

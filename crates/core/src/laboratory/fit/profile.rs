@@ -91,7 +91,7 @@ impl<'a> Walk<'a> {
     }
 
     /// Distance to the bound.
-    fn room(&self) -> f64 {
+    fn reach(&self) -> f64 {
         let at = self.minimum.unit[self.index];
         if self.sign > 0.0 { 1.0 - at } else { at }
     }
@@ -170,17 +170,17 @@ impl<'a> Walk<'a> {
 
     /// Where in the unit interval the fit becomes too bad; `None` if it does not up to the bound.
     fn end(&mut self, threshold: f64) -> Option<f64> {
-        let room = self.room();
+        let reach = self.reach();
         let guess = self.guess(threshold);
-        let mut step = guess.min(room);
+        let mut step = guess.min(reach);
         let mut inside = (0.0, 0.0);
         loop {
             // Outwards until the fit is too bad.
             let outside = loop {
-                if room <= 0.0 || inside.0 >= room {
+                if reach <= 0.0 || inside.0 >= reach {
                     return None;
                 }
-                let distance = (inside.0 + step).min(room);
+                let distance = (inside.0 + step).min(reach);
                 let rise = self.rise(distance);
                 if rise > threshold {
                     break (distance, rise);
@@ -198,10 +198,10 @@ impl<'a> Walk<'a> {
 
     /// A place beyond an end where the fit is good enough again, the furthest that is found.
     fn valley_beyond(&mut self, threshold: f64, end: f64, scale: f64) -> Option<(f64, f64)> {
-        let room = self.room();
+        let reach = self.reach();
         for part in BEYOND.into_iter().rev() {
             let distance = end + part * scale;
-            if distance <= room {
+            if distance <= reach {
                 let rise = self.rise(distance);
                 if rise <= threshold {
                     return Some((distance, rise));

@@ -70,7 +70,7 @@ pub fn restoring(system: &System, eta: &[f64], eta_dot: &[f64]) -> Vec<f64> {
 pub const SYSTEMS: u64 = 300;
 
 /// A system and what it was made from.
-pub struct Made {
+pub struct RandomSystem {
     pub system: System,
     pub masses_kg: Vec<f64>,
     pub stiffnesses_n_per_m: Vec<f64>,
@@ -78,7 +78,7 @@ pub struct Made {
 }
 
 /// None, one or three storeys; with and without spring, damper, dampers or ratio.
-pub fn system(random: &mut Random, damped: bool) -> Made {
+pub fn system(random: &mut Random, damped: bool) -> RandomSystem {
     let n = [0, 1, 3][random.integer(0, 2) as usize];
     let mut list =
         |low, high| -> Vec<f64> { (0..n).map(|_| random.logarithmic(low, high)).collect() };
@@ -93,7 +93,7 @@ pub fn system(random: &mut Random, damped: bool) -> Made {
         (true, false) => StoreyDamping::Dampers(&dampers),
     };
     let system = System::new(block_kg, spring, damper, &masses_kg, &stiffnesses_n_per_m, damping);
-    Made { system, masses_kg, stiffnesses_n_per_m, damped }
+    RandomSystem { system, masses_kg, stiffnesses_n_per_m, damped }
 }
 
 /// Seeds, each with its stream, and whether the system is damped.
@@ -102,7 +102,7 @@ pub fn streams() -> impl Iterator<Item = (Random, bool)> {
 }
 
 /// Displacements about 10 mm, velocities about 100 mm/s, in the coordinates of the system.
-pub fn state(random: &mut Random, made: &Made, slip: bool) -> State {
+pub fn state(random: &mut Random, made: &RandomSystem, slip: bool) -> State {
     let n = made.masses_kg.len();
     let mut draw = |size: f64| size * random.between(-1.0, 1.0);
     let q: Vec<f64> = (0..n).map(|_| draw(0.01)).collect();

@@ -5,7 +5,7 @@ use super::systems::{
     streams, system,
 };
 use crate::linear::polynomial::{DEGREE, value};
-use crate::linear::{MAX_RATE_STEP, Solution, StoreyDamping, orders};
+use crate::linear::{IntervalTables, MAX_RATE_STEP, StoreyDamping, orders};
 use crate::numerics::InstructionSet;
 use crate::numerics::instructions::vectorize;
 
@@ -101,7 +101,7 @@ fn prop_parts_of_an_interval_agree_with_the_whole_series() {
                 let (mut number, mut size) = (0.0, 0.0);
                 vectorize!(InstructionSet::best(), simd => {
                     let of = (row.as_slice(), of_a, of_force);
-                    let solution = Solution::new(simd, system, slip, (length_s, DEGREE), of);
+                    let solution = IntervalTables::new(simd, system, slip, (length_s, DEGREE), of);
                     let from = (start.as_slice(), &load);
                     let c = solution.number(simd, system, from, &mut scratch);
                     solution.state_at(simd, system, from, part, &mut scratch, &mut out);

@@ -70,8 +70,8 @@ impl<'r, 'a, S: Simd> Ahead<'r, 'a, S> {
         while sample < end && !self.is_due() {
             let from = sample;
             sample = match self.shared.course.block.mode {
-                Mode::Slip(direction) => self.slide(sample, end, direction),
-                Mode::Stick => self.rest(sample, end),
+                Mode::Slip(direction) => self.screen_slip(sample, end, direction),
+                Mode::Stick => self.screen_stick(sample, end),
             };
             self.shared.pulse.beat(16 + (sample - from) as u32)?;
             if sample < end {

@@ -20,7 +20,12 @@ const PER_SAMPLE: f64 = 1.0 / (BATCH * BATCH) as f64;
 impl<S: Simd> Ahead<'_, '_, S> {
     /// Takes samples of sliding; the first that the bounds leave open.
     #[inline(always)]
-    pub(super) fn slide(&mut self, mut sample: usize, end: usize, direction: Direction) -> usize {
+    pub(super) fn screen_slip(
+        &mut self,
+        mut sample: usize,
+        end: usize,
+        direction: Direction,
+    ) -> usize {
         let (simd, tables) = (self.simd, self.of.tables);
         let of = &tables.slip.gates.slack;
         let mode = Mode::Slip(direction);
@@ -218,7 +223,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
 
     /// Takes samples of stick; the first that the bounds leave open.
     #[inline(always)]
-    pub(super) fn rest(&mut self, mut sample: usize, end: usize) -> usize {
+    pub(super) fn screen_stick(&mut self, mut sample: usize, end: usize) -> usize {
         let (simd, tables) = (self.simd, self.of.tables);
         let (of, quiet, storey) = (&tables.stick.gates.slack, &tables.quiet, &tables.storey);
         let [low, high] = self.of.bounds_n;

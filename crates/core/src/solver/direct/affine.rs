@@ -21,7 +21,7 @@ use super::super::phase::Phase;
 use super::Direct;
 use super::body::Loads;
 use crate::linear::lanes::eight;
-use crate::linear::{BATCH, MAX_RATE_STEP, Row, Units, Window};
+use crate::linear::{BATCH, MAX_RATE_STEP, Row, UnitResponses, Window};
 use crate::numerics::instructions::vectorize;
 use crate::response::Mode;
 use crate::slider::Memory;
@@ -123,7 +123,7 @@ fn rows_of<S: Simd>(
     step: (f64, usize),
     components: impl Iterator<Item = usize>,
 ) -> Vec<(usize, Row)> {
-    let units = Units::affine(a, b, g, step);
+    let units = UnitResponses::affine(a, b, g, step);
     let (mut rows, mut unit) = (Vec::new(), vec![0.0; *stride]);
     for i in components {
         unit[i] = 1.0;

@@ -49,9 +49,9 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
         match self.now.mode {
             Mode::Slip(_) if self.x[1] == 0.0 => sample,
             Mode::Slip(direction) => {
-                self.slide((course, pulse), (tables, batch), [sample, end], direction)
+                self.screen_slip((course, pulse), (tables, batch), [sample, end], direction)
             }
-            Mode::Stick => self.rest((course, pulse), (tables, batch), [sample, end]),
+            Mode::Stick => self.screen_stick((course, pulse), (tables, batch), [sample, end]),
         }
     }
 
@@ -63,7 +63,7 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
 
     /// Takes samples of sliding.
     #[inline(always)]
-    fn slide(
+    fn screen_slip(
         &mut self,
         (course, pulse): (&Course<'a>, &mut Pulse<'a>),
         (phase, batch): (&'a PhaseTables, &'a Batch),
@@ -143,7 +143,7 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
 
     /// Takes samples of stick.
     #[inline(always)]
-    fn rest(
+    fn screen_stick(
         &mut self,
         (course, pulse): (&Course<'a>, &mut Pulse<'a>),
         (phase, batch): (&'a PhaseTables, &'a Batch),

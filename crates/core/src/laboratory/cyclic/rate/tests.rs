@@ -42,13 +42,13 @@ impl Drag {
 }
 
 #[derive(Default)]
-struct Made {
+struct SyntheticTest {
     times_s: Vec<f64>,
     displacement_m: Vec<f64>,
     force_n: Vec<f64>,
 }
 
-impl Made {
+impl SyntheticTest {
     fn test(&self) -> CyclicTest<'_> {
         CyclicTest {
             times_s: &self.times_s,
@@ -69,14 +69,14 @@ impl Made {
 
 /// A machine of finite stiffness drags a block without inertia: it sticks up to the static friction and
 /// slides where machine, spring and friction balance. One block of cycles a frequency, `dt` in s.
-fn made(drag: &Drag, blocks: &[(f64, f64)], dt_s: f64, random: &mut Random) -> Made {
+fn made(drag: &Drag, blocks: &[(f64, f64)], dt_s: f64, random: &mut Random) -> SyntheticTest {
     const FINE: usize = 4;
     let h = dt_s / FINE as f64;
     let [slow, fast] = drag.kinetic_n;
     let wander = TAU * random.uniform();
     let (mut x, mut v, mut sliding, mut turns) = (0.0_f64, 0.0_f64, false, 0.0_f64);
     let (mut of_stroke, mut within, mut stroke) = (0.0, 0.0, -1.0);
-    let mut out = Made::default();
+    let mut out = SyntheticTest::default();
     for (frequency_hz, cycles) in blocks {
         for i in 0..(cycles / frequency_hz / dt_s) as usize * FINE {
             turns += frequency_hz * h;
