@@ -18,6 +18,7 @@ use crate::response::{History, Mode};
 /// Largest sizes so far.
 pub(super) struct Peaks {
     outputs: Vec<Output>,
+    /// One of each.
     pub(super) values: Vec<f64>,
     /// What the overturning moment is made of, where it is asked for.
     pub(super) arms: Option<Arms>,
