@@ -79,11 +79,17 @@ impl Roughness {
     /// That of the samples of a batch.
     #[inline(always)]
     pub(super) fn new<S: Simd>(simd: S, x: &Window) -> Self {
-        let at = |i: usize| f64x4::from_slice(simd, &x[i..i + 4]);
-        let kink = |i: usize| ((at(i + 2) - at(i + 1)) - (at(i + 1) - at(i))).abs();
-        let [early, late] = [(at(1) - at(0)).abs(), (at(5) - at(4)).abs()];
+        // A closure that is called twice would not be inlined into the vectorized work.
+        #[inline(always)]
+        fn four<S: Simd>(simd: S, x: &Window, first: usize) -> f64x4<S> {
+            f64x4::from_slice(simd, &x[first..first + 4])
+        }
+        let (a, b, c) = (four(simd, x, 0), four(simd, x, 1), four(simd, x, 2));
+        let (d, e, f) = (four(simd, x, 3), four(simd, x, 4), four(simd, x, 5));
+        let [early, late] = [(b - a).abs(), (f - e).abs()];
         // Both fours have the kink in the middle.
-        let (before, after) = (kink(0), kink(3) * f64x4::from_slice(simd, &[0.0, 1.0, 1.0, 1.0]));
+        let [before, after] = [((c - b) - (b - a)).abs(), ((f - e) - (e - d)).abs()];
+        let after = after * f64x4::from_slice(simd, &[0.0, 1.0, 1.0, 1.0]);
         Self {
             variation: sum_of_lanes(early + late),
             kinks: sum_of_lanes(before + after),
