@@ -27,7 +27,8 @@ pub struct Opened {
     pub analysis: Analysis,
     overrides: Vec<Override>,
     pub suite: Suite,
-    sources: Vec<(String, String, String)>,
+    /// What went in, the model first.
+    pub inputs: InputFiles,
 }
 
 impl Opened {
@@ -66,8 +67,10 @@ impl Opened {
                 }
             }
         };
+        let mut inputs = file.inputs();
+        inputs.files.extend(sources);
         let text = file.text();
-        Ok(Self { file, text, name, analysis, overrides, suite, sources })
+        Ok(Self { file, text, name, analysis, overrides, suite, inputs })
     }
 
     /// What is asked of.
@@ -100,16 +103,9 @@ impl Opened {
         counted("computing", args.result.quiet, work).map_err(|error| self.failure(error))
     }
 
-    /// What went in, the model first.
-    pub fn inputs(&self) -> InputFiles {
-        let mut inputs = self.file.inputs();
-        inputs.files.extend(self.sources.iter().cloned());
-        inputs
-    }
-
     /// The folder for the results, refused where it would replace an input.
     pub fn folder(&self, args: &ResultArgs) -> Result<Option<OutputFolder>, Failure> {
-        folder(args, &self.inputs().paths())
+        folder(args, &self.inputs.paths())
     }
 }
 

@@ -26,7 +26,7 @@ pub fn assess<const KIND: usize>(args: &AssessArgs<KIND>) -> Result<ExitCode, Fa
     let result = &args.suite.result;
     let folder = opened.folder(result)?;
     let answer = opened.compute(&args.suite, |engine| asked.run(&opened.on(), engine))?;
-    emit(result, folder, answer, &opened.inputs())
+    emit(result, folder, answer, &opened.inputs)
 }
 
 /// Fits, prints and writes.

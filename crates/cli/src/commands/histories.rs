@@ -49,13 +49,13 @@ pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
     };
     let mut inputs = InputFiles::default();
     inputs.files.extend(target.iter().map(of_target));
-    for InputFiles { files, texts } in opened.iter().map(Opened::inputs) {
+    for InputFiles { files, texts } in opened.iter().map(|opened| &opened.inputs) {
         for file in files {
-            if !inputs.files.contains(&file) {
-                inputs.files.push(file);
+            if !inputs.files.contains(file) {
+                inputs.files.push(file.clone());
             }
         }
-        inputs.texts.extend(texts);
+        inputs.texts.extend_from_slice(texts);
     }
     let folder = folder(&suite.result, &inputs.paths())?;
     let names = names(&opened);

@@ -129,7 +129,7 @@ pub(super) struct Modal<'a, S, W> {
     ground: Ground<'a>,
     /// Where a history is wanted.
     recorder: Option<Recorder>,
-    /// UnitResponses of work of a batch of samples.
+    /// Units of work of a batch of samples.
     units: u32,
     /// `s, ṡ, η, η̇`, padded.
     x: Vec<f64>,

@@ -305,7 +305,7 @@ impl<'a> PlaneJudge<'a> {
     }
 
     /// Passes rest quicker than a time can tell: the block goes on along the push, if at all, and may have
-    /// turned either path.
+    /// turned either way.
     fn turn_about(&mut self, path: &mut IntervalPath, loads: &Loads, at_s: f64) {
         let tracked = self.tracked();
         path.state.lose_speed(self.frame());

@@ -6,11 +6,10 @@
 //! between samples may be above what was attained: few of them. Lanes do not mix and no sum is
 //! reordered, so that the bits are the same whatever instructions do it.
 
-use fearless_simd::{Level, dispatch};
-
 use super::Oscillator;
 use crate::motion::oscillator::{Interval, Overshoot, Peaks, State, Step};
-use crate::numerics::sort;
+use crate::numerics::instructions::vectorize;
+use crate::numerics::{InstructionSet, sort};
 
 /// Oscillators side by side.
 const LANES: usize = 8;
@@ -43,7 +42,7 @@ pub(super) fn peaks(
     sort(&mut order, |&i, &j| parts[i].total_cmp(&parts[j]));
     let mut all = vec![None; oscillators.len()];
     let mut blocks = Vec::new();
-    let level = Level::new();
+    let instructions = InstructionSet::best();
     let most = (MOST_CUTS * acceleration.len()).clamp(FEW_SAMPLES, MOST_SAMPLES) as f64;
     for alike in order.chunk_by(|&i, &j| parts[i] == parts[j]) {
         let cuts = parts[alike[0]];
@@ -63,7 +62,7 @@ pub(super) fn peaks(
         for indices in alike.chunks(LANES) {
             let group: Vec<Oscillator> = indices.iter().map(|&i| oscillators[i]).collect();
             let matrices = Matrices::new(dt_s, &group);
-            dispatch!(level, _simd => matrices.run(acceleration, &mut blocks));
+            vectorize!(instructions, _simd => matrices.run(acceleration, &mut blocks));
             for (lane, &i) in indices.iter().enumerate() {
                 let one = One::new(dt_s, oscillators[i], &matrices, lane);
                 all[i] = Some(one.peaks(acceleration, &extents, &blocks));
