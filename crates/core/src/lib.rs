@@ -63,22 +63,15 @@
 //! the table on the block.
 
 pub mod assessment;
-pub mod check;
-pub mod error;
 pub mod hash;
 pub mod input;
 pub mod laboratory;
-mod linear;
-pub mod model;
-pub mod motion;
-pub mod notice;
-mod numerics;
-pub mod progress;
-pub mod record;
 pub mod requests;
-pub mod response;
-pub mod slider;
-pub mod solver;
 pub mod study;
-pub mod table;
-pub mod units;
+
+pub use slipstick_dynamics::{
+    check, error, model, motion, notice, progress, response, slider, solver, table, units,
+};
+pub use slipstick_records as record;
+
+use slipstick_dynamics::numerics;

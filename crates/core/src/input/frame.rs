@@ -6,7 +6,7 @@ use super::build::{derived, mass_kg};
 use super::motion;
 use super::reader::Values;
 use crate::error::InputError;
-use crate::linear::shear_frame_frequencies;
+use crate::model::shear_frame_frequencies;
 use crate::model::{AlongY, Damping, Frame, InitialState};
 
 /// One of the two horizontal directions. A key along y is that along x with `_y` behind it; where it is not

@@ -2,18 +2,8 @@
 
 use super::cases::status;
 use super::{Row, Study};
-use crate::response::{DemandColumn, DemandKind, InDirections, Response, demand_values};
+use crate::response::{DemandColumn, InDirections, Response, demand_values};
 use crate::table::{Cells, Column, Field, Kind, Table};
-
-impl From<DemandKind> for Kind {
-    fn from(kind: DemandKind) -> Self {
-        match kind {
-            DemandKind::Number => Self::Number,
-            DemandKind::Count => Self::Count,
-            DemandKind::Flag => Self::Flag,
-        }
-    }
-}
 
 /// What stands before the names of demands by axis.
 const AXES: [&str; 2] = ["x.", "y."];

@@ -1,6 +1,6 @@
 //! What is noticed of a model and the motion under it, before anything is run.
 
-use crate::linear::shear_frame_frequencies;
+use crate::model::shear_frame_frequencies;
 use crate::model::{Damping, Model};
 use crate::motion::GroundMotion;
 use crate::notice::{Notice, NoticeKind};

@@ -6,7 +6,7 @@ use super::{FULL, SMALLEST, read, with};
 use crate::input::{
     FrictionBounds, MotionSource, RecordSource, Scale, from_bytes, json_schema, parse,
 };
-use crate::linear::shear_frame_frequencies;
+use crate::model::shear_frame_frequencies;
 use crate::model::{
     Block, Contents, Damping, Frame, InitialState, Model, ModelBuilder, Stop, StopKind,
 };

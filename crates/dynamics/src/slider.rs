@@ -1,0 +1,407 @@
+//! The slider: the one force between ground and block.
+//!
+//! A [`Slider`] is one surface with its [`Friction`] and what draws the block back, or surfaces in
+//! series ([`SurfacesInSeries`]); beside them a damper, and at the ends of the travel nothing or a
+//! [`Stop`]. It cannot hold what no slider has. Its law (`law`) says what is in force, where that ends,
+//! what holds at rest and what follows; nothing else knows one kind of slider from another.
+
+mod branch;
+mod friction;
+mod hold;
+mod isotropic;
+mod law;
+pub(crate) mod ranges;
+mod rate;
+mod series;
+mod stop;
+
+pub(crate) use branch::{Affine, EXITS, Exit, Fading, Reached, TwoBranches};
+pub(crate) use branch::{Restraint, Restraints, SlipForce};
+pub use friction::Friction;
+pub(crate) use hold::{Disc, Hold};
+pub(crate) use isotropic::Kinetic;
+pub(crate) use law::{Law, Memory};
+pub(crate) use rate::Coefficient;
+pub use rate::{RateCurve, RateLaw};
+pub use series::{Surface, SurfacesInSeries};
+pub use stop::{Contact, Stop, StopKind};
+
+use self::ranges::{in_range, not_negative, optional_positive, positive};
+use crate::error::ModelError;
+
+/// Direction of sliding along x.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// Towards +x: the sliding velocity is positive.
+    Positive,
+    /// Towards −x.
+    Negative,
+}
+
+impl Direction {
+    /// Towards +x, then towards −x: the order of pairs of numbers by direction.
+    pub const BOTH: [Self; 2] = [Self::Positive, Self::Negative];
+
+    /// +1 or −1.
+    #[must_use]
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Positive => 1.0,
+            Self::Negative => -1.0,
+        }
+    }
+
+    /// The other one.
+    #[must_use]
+    pub fn opposite(self) -> Self {
+        match self {
+            Self::Positive => Self::Negative,
+            Self::Negative => Self::Positive,
+        }
+    }
+
+    /// That of a pair by direction which belongs to this one.
+    #[inline(always)]
+    #[must_use]
+    pub fn of<T>(self, [positive, negative]: [T; 2]) -> T {
+        match self {
+            Self::Positive => positive,
+            Self::Negative => negative,
+        }
+    }
+}
+
+/// The bearing between table and block.
+///
+/// # Examples
+/// ```
+/// use slipstick_dynamics::slider::{Friction, Slider, Stop};
+///
+/// let friction = Friction::new(0.06, 0.05)?;
+/// let stop = Stop::rigid([Some(0.15); 2], 0.5);
+/// let slider = Slider { ends: stop.into(), ..Slider::pendulum(friction, 2.0) };
+/// assert_eq!(slider.stiffness_n_per_m(4000.0), 2000.0);
+/// # Ok::<(), slipstick_dynamics::error::ModelError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Slider {
+    /// What the block slides on.
+    pub bearing: Bearing,
+    /// Damper `C1` between table and block in N s/m, 0 without one.
+    pub damper_n_s_per_m: f64,
+    /// Tilt θ of the surface in rad, positive uphill towards +x.
+    pub tilt_rad: f64,
+    /// What is at the ends of its travel.
+    pub ends: Ends,
+}
+
+/// What the block slides on.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Bearing {
+    /// One surface.
+    Surface {
+        /// Its friction.
+        friction: Friction,
+        /// What draws the block back to `s = 0`.
+        restoring: Restoring,
+    },
+    /// Surfaces in series, with friction and radii of their own.
+    InSeries(SurfacesInSeries),
+}
+
+impl Bearing {
+    #[inline(always)]
+    fn friction(&self) -> Option<&Friction> {
+        match self {
+            Self::Surface { friction, .. } => Some(friction),
+            Self::InSeries(_) => None,
+        }
+    }
+
+    #[inline(always)]
+    fn rate(&self) -> Option<&RateLaw> {
+        self.friction().and_then(Friction::rate)
+    }
+
+    #[inline(always)]
+    fn series(&self) -> Option<&SurfacesInSeries> {
+        match self {
+            Self::Surface { .. } => None,
+            Self::InSeries(series) => Some(series),
+        }
+    }
+
+    fn surfaces(&self) -> &[Surface] {
+        self.series().map_or(&[], SurfacesInSeries::surfaces)
+    }
+}
+
+/// What draws a block on one surface back to `s = 0`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Restoring {
+    /// Nothing.
+    None,
+    /// A spring between table and block.
+    Spring {
+        /// `K1` in N/m.
+        stiffness_n_per_m: f64,
+    },
+    /// A pendulum: its spring follows the normal force, `N(t)/R`.
+    Pendulum {
+        /// `R` in m.
+        radius_m: f64,
+    },
+}
+
+/// What is at the ends of the slider's travel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ends {
+    /// Nothing is struck.
+    Open {
+        /// Sliding displacement that the detailing allows, in m; reported only.
+        gap_m: Option<f64>,
+    },
+    /// What the block strikes.
+    Stop(Stop),
+}
+
+impl From<Stop> for Ends {
+    fn from(stop: Stop) -> Self {
+        Self::Stop(stop)
+    }
+}
+
+impl From<Option<Stop>> for Ends {
+    fn from(stop: Option<Stop>) -> Self {
+        stop.map_or(Self::Open { gap_m: None }, Self::Stop)
+    }
+}
+
+impl Slider {
+    fn on(bearing: Bearing) -> Self {
+        let ends = Ends::Open { gap_m: None };
+        Self { bearing, damper_n_s_per_m: 0.0, tilt_rad: 0.0, ends }
+    }
+
+    /// Friction alone on a level surface: no spring, damper, gap or stop.
+    #[must_use]
+    pub fn new(friction: Friction) -> Self {
+        Self::on(Bearing::Surface { friction, restoring: Restoring::None })
+    }
+
+    /// The same with a spring of this stiffness.
+    #[must_use]
+    pub fn sprung(friction: Friction, stiffness_n_per_m: f64) -> Self {
+        let restoring = Restoring::Spring { stiffness_n_per_m };
+        Self::on(Bearing::Surface { friction, restoring })
+    }
+
+    /// A pendulum of this radius.
+    #[must_use]
+    pub fn pendulum(friction: Friction, radius_m: f64) -> Self {
+        Self::on(Bearing::Surface { friction, restoring: Restoring::Pendulum { radius_m } })
+    }
+
+    /// Surfaces in series.
+    #[must_use]
+    pub fn in_series(series: SurfacesInSeries) -> Self {
+        Self::on(Bearing::InSeries(series))
+    }
+
+    /// Refuses what no slider has, on one from which the block starts at `start_m`.
+    pub(crate) fn check(&self, start_m: f64) -> Result<(), ModelError> {
+        match &self.bearing {
+            Bearing::Surface { restoring, .. } => match *restoring {
+                Restoring::None => {}
+                Restoring::Spring { stiffness_n_per_m } => {
+                    not_negative("slider stiffness_n_per_m", stiffness_n_per_m)?;
+                }
+                Restoring::Pendulum { radius_m } => positive("slider radius_m", radius_m)?,
+            },
+            Bearing::InSeries(series) => in_range(
+                "initial sliding_displacement_m",
+                "less than the travel of all surfaces",
+                start_m,
+                series.travel_m().is_none_or(|travel_m| start_m.abs() < travel_m),
+            )?,
+        }
+        not_negative("slider damper_n_s_per_m", self.damper_n_s_per_m)?;
+        match &self.ends {
+            Ends::Open { gap_m } => optional_positive("slider gap_m", *gap_m)?,
+            Ends::Stop(stop) => stop.check()?,
+        }
+        let tilt_rad = self.tilt_rad;
+        let is_within = tilt_rad.abs() < core::f64::consts::FRAC_PI_2;
+        in_range("slider tilt_rad", "a tilt between −π/2 and π/2", tilt_rad, is_within)
+    }
+
+    /// The friction of one surface.
+    #[must_use]
+    pub fn friction(&self) -> Option<&Friction> {
+        self.bearing.friction()
+    }
+
+    /// The law of kinetic friction that follows the speed, where it does.
+    #[must_use]
+    pub fn rate(&self) -> Option<&RateLaw> {
+        self.bearing.rate()
+    }
+
+    /// The surfaces in series, where there are such.
+    #[must_use]
+    pub fn series(&self) -> Option<&SurfacesInSeries> {
+        self.bearing.series()
+    }
+
+    /// The surfaces in series, in their order; none where there is one surface.
+    #[must_use]
+    pub fn surfaces(&self) -> &[Surface] {
+        self.bearing.surfaces()
+    }
+
+    /// Radii in m: of a pendulum on one surface, and by their places of surfaces in series that have one.
+    pub fn radii_m(&self) -> impl Iterator<Item = (Option<usize>, f64)> + '_ {
+        let of = |(i, surface): (usize, &Surface)| Some((Some(i), surface.radius_m?));
+        let whole = self.radius_m().map(|radius_m| (None, radius_m));
+        self.surfaces().iter().enumerate().filter_map(of).chain(whole)
+    }
+
+    /// The loop of the slider pushed slowly, as surfaces in series: the mean coefficient over both directions and
+    /// the stiffness over the weight in 1/m of each. None where friction follows the speed.
+    pub fn slow_loop(&self, normal_n: f64, weight_n: f64) -> Option<Vec<[f64; 2]>> {
+        let of = |surface: &Surface| [surface.friction, surface.curvature()];
+        match &self.bearing {
+            Bearing::InSeries(series) => Some(series.surfaces().iter().map(of).collect()),
+            Bearing::Surface { friction, .. } => friction.rate().is_none().then(|| {
+                let [positive, negative] = self.coefficients()[1];
+                vec![[0.5 * (positive + negative), self.stiffness_n_per_m(normal_n) / weight_n]]
+            }),
+        }
+    }
+
+    /// The same held by a coefficient of friction, on a spring with the stiffness that it has under a normal
+    /// force, without a gap.
+    ///
+    /// # Errors
+    /// As [`Friction::new`].
+    pub fn held(&self, coefficient: f64, normal_n: f64) -> Result<Self, ModelError> {
+        let friction = Friction::new(coefficient, coefficient)?;
+        let ends = self.stop().copied().into();
+        let Self { damper_n_s_per_m, tilt_rad, .. } = *self;
+        let sprung = Self::sprung(friction, self.stiffness_n_per_m(normal_n));
+        Ok(Self { damper_n_s_per_m, tilt_rad, ends, ..sprung })
+    }
+
+    /// Static and kinetic coefficients towards +x and −x: of friction by the speed that at rest, of
+    /// surfaces in series those of the first to slide.
+    pub(crate) fn coefficients(&self) -> [[f64; 2]; 2] {
+        match &self.bearing {
+            Bearing::Surface { friction, .. } => [
+                Direction::BOTH.map(|direction| friction.static_coefficient(direction)),
+                Direction::BOTH.map(|direction| friction.kinetic_coefficient(direction)),
+            ],
+            Bearing::InSeries(series) => {
+                let least = series.least_friction();
+                [[series.static_ratio() * least; 2], [least; 2]]
+            }
+        }
+    }
+
+    /// Radius of a pendulum on one surface, in m.
+    #[must_use]
+    pub fn radius_m(&self) -> Option<f64> {
+        match self.bearing {
+            Bearing::Surface { restoring: Restoring::Pendulum { radius_m }, .. } => Some(radius_m),
+            _ => None,
+        }
+    }
+
+    /// Radius of a pendulum whose spring follows the normal force: under one that varies, and where
+    /// friction follows the speed.
+    #[must_use]
+    pub fn pendulum_radius_m(&self, varying: bool) -> Option<f64> {
+        self.radius_m().filter(|_| varying || self.rate().is_some())
+    }
+
+    /// Stiffness in N/m of its spring, of a pendulum under a normal force; 0 without either.
+    #[must_use]
+    pub fn stiffness_n_per_m(&self, normal_n: f64) -> f64 {
+        match self.bearing {
+            Bearing::Surface { restoring: Restoring::Spring { stiffness_n_per_m }, .. } => {
+                stiffness_n_per_m
+            }
+            Bearing::Surface { restoring: Restoring::Pendulum { radius_m }, .. } => {
+                normal_n / radius_m
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// Sliding displacement that the detailing allows, in m, where it is given and nothing is struck.
+    #[must_use]
+    pub fn gap_m(&self) -> Option<f64> {
+        match self.ends {
+            Ends::Open { gap_m } => gap_m,
+            Ends::Stop(_) => None,
+        }
+    }
+
+    /// The stop at the ends of its travel.
+    #[must_use]
+    pub fn stop(&self) -> Option<&Stop> {
+        match &self.ends {
+            Ends::Open { .. } => None,
+            Ends::Stop(stop) => Some(stop),
+        }
+    }
+
+    /// Distances from `s = 0` to it towards +x and −x in m.
+    #[must_use]
+    pub fn stop_m(&self) -> [Option<f64>; 2] {
+        self.stop().map_or([None; 2], |stop| stop.gap_m)
+    }
+
+    /// Force of an elastic stop on the block in a contact, as a size in N.
+    #[must_use]
+    pub fn stop_force_n(&self, contact: Contact, s: f64, w: f64) -> f64 {
+        self.law(0.0, true).stop_force_n(contact, s, w)
+    }
+
+    /// The same with other friction on its one surface; surfaces in series keep theirs.
+    #[must_use]
+    pub fn with_friction(mut self, other: Friction) -> Self {
+        if let Bearing::Surface { friction, .. } = &mut self.bearing {
+            *friction = other;
+        }
+        self
+    }
+
+    /// The same with all coefficients times `factor`.
+    ///
+    /// # Errors
+    /// As [`Friction::scaled`].
+    pub(crate) fn with_friction_times(&self, factor: f64) -> Result<Self, ModelError> {
+        let mut slider = self.clone();
+        match &mut slider.bearing {
+            Bearing::Surface { friction, .. } => *friction = friction.scaled(factor)?,
+            Bearing::InSeries(series) => *series = series.scaled(factor)?,
+        }
+        Ok(slider)
+    }
+
+    /// Whether another has the same linear system: whether the two differ in constant coefficients of
+    /// friction, static ones and a reported gap alone.
+    pub(crate) fn has_system_of(&self, other: &Self) -> bool {
+        let alike = match (&self.bearing, &other.bearing) {
+            (
+                Bearing::Surface { friction, restoring },
+                Bearing::Surface { friction: of_other, restoring: restoring_of_other },
+            ) => restoring == restoring_of_other && friction.rate() == of_other.rate(),
+            (own, of_other) => own == of_other,
+        };
+        alike
+            && self.damper_n_s_per_m == other.damper_n_s_per_m
+            && self.tilt_rad == other.tilt_rad
+            && self.stop() == other.stop()
+    }
+}

@@ -1,0 +1,208 @@
+//! Rows and columns of numbers.
+
+use core::ops::Range;
+
+use super::header::{Header, is_comment};
+use super::style::Style;
+use slipstick_dynamics::error::RecordError;
+use slipstick_dynamics::motion::MAX_SAMPLES;
+use crate::text::{Line, Text};
+
+/// All numbers of a file.
+pub(super) struct Table {
+    /// How they are written.
+    pub style: Style,
+    /// Numbers a row.
+    pub columns: usize,
+    /// Row by row; the last row may be short if there are three columns or more.
+    pub cells: Vec<f64>,
+    /// Count and step of a first line that states them.
+    count: Option<CountLine>,
+    /// Lines before the first of numbers, a count among them.
+    header_lines: usize,
+}
+
+/// A first line `4000 0.01`: count and step in s.
+#[derive(Clone, Copy)]
+struct CountLine {
+    count: f64,
+    dt_s: f64,
+    number: usize,
+}
+
+impl Table {
+    /// Reads the numbers after a header.
+    ///
+    /// # Errors
+    /// For what is no finite number; for rows of different lengths; for a blank line among them;
+    /// for fewer or more than a count line says.
+    pub fn read(text: &Text, header: &Header) -> Result<Self, RecordError> {
+        let style = Style::of(text, header)?;
+        let mut table =
+            Self { style, columns: 0, cells: vec![], count: None, header_lines: header.lines };
+        let mut rows = text.lines().skip(header.lines).filter(|line| !is_comment(line));
+        let mut pending = rows.next();
+        if let Some(first) = pending {
+            table.columns = table.row(text, &first)?;
+            pending = rows.next();
+            if let Some(second) = pending.filter(|line| !line.is_blank()) {
+                let columns = table.row(text, &second)?;
+                if let Some(count) = table.count_line(&first, columns) {
+                    table.cells.drain(..2);
+                    table.header_lines = first.number;
+                    (table.count, table.columns) = (Some(count), columns);
+                } else if columns != table.columns {
+                    return Err(table.uneven_row(text, &second, columns));
+                }
+                pending = rows.next();
+            }
+        }
+        let mut short: Option<(Line, usize)> = None;
+        while let Some(line) = pending {
+            if line.is_blank() {
+                if rows.all(|line| line.is_blank()) {
+                    break;
+                }
+                return Err(text.error(&line, 0, "a row of numbers", "an empty line"));
+            }
+            if let Some((line, columns)) = short {
+                return Err(table.uneven_row(text, &line, columns));
+            }
+            let columns = table.row(text, &line)?;
+            if columns != table.columns {
+                if columns > table.columns || table.columns < 3 {
+                    return Err(table.uneven_row(text, &line, columns));
+                }
+                short = Some((line, columns));
+            }
+            pending = rows.next();
+        }
+        table.check_count(text)?;
+        Ok(table)
+    }
+
+    /// Number of full rows.
+    pub fn rows(&self) -> usize {
+        self.cells.len() / self.columns
+    }
+
+    /// Whether the last row is full.
+    pub fn is_full(&self) -> bool {
+        self.cells.len().is_multiple_of(self.columns)
+    }
+
+    /// Values of a column.
+    pub fn column(&self, column: usize) -> impl Iterator<Item = f64> + Clone + '_ {
+        self.cells.chunks_exact(self.columns).map(move |row| row[column])
+    }
+
+    /// Appends the numbers of a line; how many there were.
+    fn row(&mut self, text: &Text, line: &Line) -> Result<usize, RecordError> {
+        let before = self.cells.len();
+        let style = self.style;
+        style.words(line, |word| {
+            let Some(value) = style.number(&line.bytes[word.clone()]) else {
+                return Err(text.error_at(line, &word, "a finite number"));
+            };
+            self.cells.push(value);
+            Ok(())
+        })?;
+        if self.cells.len() > 8 * MAX_SAMPLES {
+            return Err(text.error(line, 0, "at most 100 000 000 rows", "more"));
+        }
+        Ok(self.cells.len() - before)
+    }
+
+    /// The first line as count and step, if the second has another length or, as a time, would
+    /// run backwards.
+    fn count_line(&self, first: &Line, columns: usize) -> Option<CountLine> {
+        let (&[count, dt_s], second) = self.cells.split_first_chunk::<2>()?;
+        let is_count = || {
+            let word = first.words().next()?;
+            let digits = &first.bytes[word];
+            digits.iter().all(u8::is_ascii_digit).then_some(())
+        };
+        let apart = columns != 2 || second[0] < count;
+        (self.columns == 2 && count >= 2.0 && dt_s > 0.0 && apart && is_count().is_some())
+            .then_some(CountLine { count, dt_s, number: first.number })
+    }
+
+    fn check_count(&self, text: &Text) -> Result<(), RecordError> {
+        let Some(CountLine { count, number, .. }) = self.count else { return Ok(()) };
+        let (rows, values) = (self.rows() as f64, self.cells.len() as f64);
+        if count == rows || (self.columns >= 3 && count == values) {
+            return Ok(());
+        }
+        let found = if self.columns >= 3 { values } else { rows };
+        let expected = format!("{count} values, as line {number} says");
+        Err(text.error_at_end(expected, &format!("the end after {found}")))
+    }
+
+    fn uneven_row(&self, text: &Text, line: &Line, columns: usize) -> RecordError {
+        let s = if self.columns == 1 { "" } else { "s" };
+        let expected = format!("{} number{s}, as in the rows before", self.columns);
+        text.error(line, 0, expected, &columns.to_string())
+    }
+
+    /// The step that a count line states, else the caller's.
+    ///
+    /// # Errors
+    /// Where both are there and differ.
+    pub fn given_step(
+        &self,
+        text: &Text,
+        given_s: Option<f64>,
+    ) -> Result<Option<f64>, RecordError> {
+        match (self.count, given_s) {
+            (Some(CountLine { dt_s, number, .. }), Some(given_s)) if dt_s != given_s => {
+                let expected = format!("the time step given, {given_s} s (leave it out)");
+                Err(text.error(&Line { number, bytes: b"" }, 0, expected, &format!("{dt_s} s")))
+            }
+            (count, given_s) => Ok(count.map(|line| line.dt_s).or(given_s)),
+        }
+    }
+
+    /// The line of a row.
+    fn line<'a>(&self, text: &Text<'a>, row: usize) -> Line<'a> {
+        let mut rows = text.lines().skip(self.header_lines).filter(|line| !is_comment(line));
+        rows.nth(row).unwrap_or(Line { number: 1, bytes: b"" })
+    }
+
+    /// The lines of the rows, one each, counted from 1.
+    pub fn row_lines(&self, text: &Text) -> Vec<u32> {
+        let rows = text.lines().skip(self.header_lines).filter(|line| !is_comment(line));
+        rows.take(self.rows()).map(|line| u32::try_from(line.number).unwrap_or(u32::MAX)).collect()
+    }
+
+    /// An error at a cell.
+    pub fn error_at(
+        &self,
+        text: &Text,
+        row: usize,
+        column: usize,
+        expected: impl Into<String>,
+    ) -> RecordError {
+        let line = self.line(text, row);
+        let mut words: Vec<Range<usize>> = Vec::new();
+        let _: Result<(), ()> = self.style.words(&line, |word| {
+            words.push(word);
+            Ok(())
+        });
+        text.error_at(&line, words.get(column).unwrap_or(&(0..0)), expected)
+    }
+
+    /// An error at the first number.
+    pub fn error_at_start(&self, text: &Text, expected: impl Into<String>) -> RecordError {
+        self.error_at(text, 0, 0, expected)
+    }
+
+    /// An error about the numbers as a whole.
+    pub fn error_found(
+        &self,
+        text: &Text,
+        expected: impl Into<String>,
+        found: &str,
+    ) -> RecordError {
+        text.error(&self.line(text, 0), 0, expected, found)
+    }
+}

@@ -1,0 +1,69 @@
+//! USC and Caltech: volume I (`.m0a`), pairs of time and acceleration in g/10 where film was
+//! digitised, unevenly spaced; volume II (`.s0a`), corrected acceleration, velocity and displacement.
+//!
+//! The first line or the second says `OF UNCORRECTED ACCELEROGRAM DATA OF VOLUME I`; columns 73 and
+//! 74 of the lines of text hold their lengths.
+
+use super::component::azimuth;
+use super::csmip;
+use super::fixed::Cursor;
+use super::text::{Line, Text};
+use super::volume::{Head, Names, end_of_channel};
+use super::{Format, Options, Record, RecordError};
+use slipstick_dynamics::notice::{Notice, NoticeKind};
+
+/// Where the text of a line ends and its length stands.
+const TEXT_WIDTH: usize = 72;
+
+/// Blocks of a component of volume II.
+const VOLUME_TWO: usize = 3;
+
+/// Whether one of the first two lines names the volume.
+pub(super) fn recognises(text: &Text) -> bool {
+    text.lines().take(2).any(|line| line.find("ACCELEROGRAM DATA OF VOL", 0).is_some())
+}
+
+/// Reads the file; its channels are named by their components.
+pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError> {
+    let mut cursor = Cursor::new(text);
+    let mut channels = Vec::new();
+    let mut corrected = false;
+    while let Some(head) = Head::read(&mut cursor)? {
+        corrected = head.corrected;
+        let head = Head { text: head.text.iter().map(cut).collect(), ..head };
+        let names = names(&head, channels.len() + 1);
+        let mut own = csmip::channel(&mut cursor, &head, &names, options)?;
+        end_of_channel(&mut cursor, &mut own, false)?;
+        if let (true, 1..VOLUME_TWO, Some(last)) = (corrected, own.len(), own.last_mut()) {
+            let message = "the component has no velocity or no displacement, which a volume II has \
+                           after its acceleration: the file may be cut";
+            last.warnings.push(Notice::new(NoticeKind::Truncated, message));
+        }
+        channels.append(&mut own);
+    }
+    if channels.is_empty() {
+        return Err(text.error_at_end("a channel", "the end of the file"));
+    }
+    let layout = if corrected { "USC/Caltech volume II" } else { "USC/Caltech volume I" };
+    let layout = layout.to_owned();
+    Ok(Record { format: Format::Usc, layout, channels, warnings: vec![] })
+}
+
+/// A line without the length of its text.
+fn cut<'a>(line: &Line<'a>) -> Line<'a> {
+    let (text, length) = line.bytes.split_at(line.bytes.len().min(TEXT_WIDTH));
+    let is_length = length.trim_ascii().iter().all(u8::is_ascii_digit);
+    Line { bytes: if is_length { text } else { line.bytes }, ..*line }
+}
+
+fn names(head: &Head, number: usize) -> Names {
+    let first = usize::from(head.corrected);
+    let component = head.after_key("COMP", b' ');
+    Names {
+        event: head.phrase(first + 1),
+        station: head.phrase(first + 5),
+        azimuth_deg: component.as_deref().and_then(azimuth),
+        name: component.clone().unwrap_or_else(|| number.to_string()),
+        component,
+    }
+}
