@@ -1,11 +1,13 @@
-//! `cargo xtask ci`: all that must hold before a change goes in.
+//! `cargo xtask ci`: all that must hold before a change goes in; `release-check` and `nightly`: what else is tried.
 
 mod licences;
 mod package;
 mod page;
+mod release;
 mod steps;
 mod testing;
 
+use crate::tools;
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -45,20 +47,48 @@ const STEPS: &[(&str, Step)] = &[
     ("documentation", steps::documentation),
     ("examples", steps::examples),
     ("outputs in README and book", steps::console),
-    ("wasm build of core and report", steps::wasm_build),
+    ("wasm build of all that runs in a browser", steps::wasm_build),
     ("golden values equal in bits under wasm", steps::wasm_golden),
     ("Python package", package::python),
     ("the page in a browser", page::page),
     ("licences of all dependencies", licences::licences),
 ];
 
-/// Runs every step; the last line is `N passed, N failed, N skipped`.
+/// What a release hands out, in the profiles of a release.
+const RELEASE: &[(&str, Step)] =
+    &[("page", release::page), ("binary", release::binary), ("wheel", release::wheel)];
+
+/// What takes too long for every change.
+const NIGHTLY: &[(&str, Step)] =
+    &[("tests that take minutes, coverage of intervals", testing::long), ("fuzzing", fuzzing)];
+
+/// `cargo xtask ci`.
 pub fn ci() -> ExitCode {
+    all_of(STEPS)
+}
+
+/// `cargo xtask release-check`: wheel, page and binary are built as a release has them, and tested.
+pub fn release_check() -> ExitCode {
+    all_of(RELEASE)
+}
+
+/// `cargo xtask nightly`.
+pub fn nightly() -> ExitCode {
+    all_of(NIGHTLY)
+}
+
+/// Every fuzz target for ten minutes.
+fn fuzzing(_: &mut Tally) -> Result<(), Problem> {
+    Ok(tools::fuzz(&["--seconds", "600"])?)
+}
+
+/// Runs every step; the last line is `N passed, N failed, N skipped`.
+fn all_of(steps: &[(&str, Step)]) -> ExitCode {
     let started = Instant::now();
     let mut tally = Tally::default();
     let mut failures = Vec::new();
-    for (i, (name, step)) in STEPS.iter().enumerate() {
-        println!("[{}/{}] {name}", i + 1, STEPS.len());
+    for (i, (name, step)) in steps.iter().enumerate() {
+        println!("[{}/{}] {name}", i + 1, steps.len());
         let clock = Instant::now();
         let result = step(&mut tally);
         let seconds = clock.elapsed().as_secs_f64();

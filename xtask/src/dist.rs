@@ -4,14 +4,14 @@ use crate::shell::{self, Outcome};
 use sha2::{Digest, Sha256};
 use std::env::consts;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Shells with completions.
 const SHELLS: [&str; 5] = ["bash", "zsh", "fish", "elvish", "powershell"];
 
 /// The binary of the profile `dist`, static where the musl target is installed, its manual pages and
-/// completions, and `SHA256SUMS`: into `dist` in the target folder.
-pub fn dist() -> Outcome {
+/// completions, and `SHA256SUMS`: into `dist` in the target folder; where the binary lies there.
+pub fn dist() -> Result<PathBuf, String> {
     let target = shell::target_folder()?;
     let mut build = shell::cargo("build --profile dist -p slipstick-cli");
     let built = match musl()? {
@@ -46,7 +46,8 @@ pub fn dist() -> Outcome {
         fs::copy(&from, folder.join(licence))
             .map_err(|error| format!("{}: {error}", from.display()))?;
     }
-    shell::write(&folder.join("SHA256SUMS"), &checksums(&folder)?)
+    shell::write(&folder.join("SHA256SUMS"), &checksums(&folder)?)?;
+    Ok(program)
 }
 
 /// The musl target of this processor, where it is installed.

@@ -1,5 +1,6 @@
 //! `cargo xtask`: the project's own tasks, on cargo and rustup alone unless a task says otherwise.
 
+mod building;
 mod ci;
 mod console;
 mod dist;
@@ -20,6 +21,11 @@ Usage: cargo xtask TASK
 
   ci                             formatting, lints, every test, documentation, wasm, examples,
                                  licences; last line: N passed, N failed, N skipped
+  nightly                        the tests that take minutes, coverage of intervals, every fuzz
+                                 target for ten minutes (installs cargo-fuzz)
+  release-check                  page, binary and wheel built as a release has them, and tested
+  bench-build [--write]          times a fresh clone: first answer, a change of the solver, tests,
+                                 ci, pip install (--write: into book/src/generated/building.md)
   reference [--write]            every reference case: truth, tolerance, error reached
                                  (--write: into book/src/generated/verification.md)
   console [--write]              runs the commands that README and book show and compares what
@@ -79,6 +85,9 @@ fn main() -> ExitCode {
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let outcome = match words.as_slice() {
         ["ci"] => return ci::ci(),
+        ["nightly"] => return ci::nightly(),
+        ["release-check"] => return ci::release_check(),
+        ["bench-build", options @ ..] => building::bench_build(options),
         ["reference", options @ ..] => reference::reference(options),
         ["console", options @ ..] => console::console(options),
         ["paper", options @ ..] => paper::paper(options),
@@ -97,7 +106,7 @@ fn main() -> ExitCode {
         ["fuzz", options @ ..] => tools::fuzz(options),
         ["coverage"] => tools::coverage(),
         ["deny"] => tools::deny(),
-        ["dist"] => dist::dist(),
+        ["dist"] => dist::dist().map(drop),
         ["man"] => tools::man(),
         ["book"] => tools::book(),
         ["figures"] => tools::figures(),

@@ -73,7 +73,7 @@ pub fn bench_records(options: &[&str]) -> Outcome {
 pub fn bench_python(options: &[&str]) -> Outcome {
     let bench = Bench::new("python", options, &["--json", "--quick", "--write"])?;
     let package = Package::environment()?;
-    package.build("wheel")?;
+    package.develop("wheel")?;
     let wheel = package.wheel("wheel", &bench.target.join("bench-python-wheel"))?;
     shell::run(&mut shell::cargo("build --release -p slipstick-cli"))?;
     shell::run(&mut shell::cargo("build --release -p slipstick-files --example run_bench"))?;

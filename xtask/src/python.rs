@@ -1,11 +1,14 @@
 //! Python environments of the tasks that need one, and the package in its own.
 
 use crate::shell::{self, Outcome};
+use std::env::consts;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// Where the package is.
 pub const PACKAGE: &str = "crates/python";
+/// Where its Python files are.
+const SOURCES: &str = "crates/python/python";
 /// The page of the book that comes from its docstrings.
 const REFERENCE: &str = "book/src/python-reference.md";
 
@@ -21,7 +24,15 @@ impl Package {
     /// # Errors
     /// What this machine lacks.
     pub fn environment() -> Result<Self, String> {
-        let folder = shell::target_folder()?.join("python");
+        Self::environment_in("python")
+    }
+
+    /// The same in a folder of its own within the target folder.
+    ///
+    /// # Errors
+    /// What this machine lacks.
+    pub fn environment_in(folder: &str) -> Result<Self, String> {
+        let folder = shell::target_folder()?.join(folder);
         let requirements = format!("{PACKAGE}/tests/requirements.txt");
         let python = environment(&folder.to_string_lossy(), &requirements)?;
         Ok(Self { folder, python })
@@ -39,8 +50,15 @@ impl Package {
         command
     }
 
-    /// Builds the package with a profile of cargo into the environment.
-    pub fn build(&self, profile: &str) -> Outcome {
+    /// Puts the extension that the tests' own build made beside the Python files and lets the environment find
+    /// both: nothing is compiled for it alone.
+    pub fn assemble(&self) -> Outcome {
+        extension()?;
+        findable(&self.python)
+    }
+
+    /// Builds the package by maturin with a profile of cargo into the environment.
+    pub fn develop(&self, profile: &str) -> Outcome {
         let mut maturin = self.command("-m maturin develop --quiet --profile");
         let manifest = format!("{PACKAGE}/Cargo.toml");
         shell::run(maturin.arg(profile).arg("--manifest-path").arg(manifest))
@@ -82,14 +100,14 @@ pub fn docs(options: &[&str]) -> Outcome {
         _ => return Err(format!("python-docs: expected --write, found {}", options.join(" "))),
     };
     let package = Package::environment()?;
-    package.build("dev")?;
+    package.assemble()?;
     package.reference(write)
 }
 
 /// `cargo xtask notebooks`: the notebooks of the examples as they ran, as pages of the book with their figures.
 pub fn notebooks() -> Outcome {
     let package = Package::environment()?;
-    package.build("dev")?;
+    package.assemble()?;
     shell::run(package.command("").arg(format!("{PACKAGE}/notebooks.py")))
 }
 
@@ -104,7 +122,7 @@ pub fn free_threaded() -> Outcome {
     let requirements = format!("{PACKAGE}/tests/requirements-free-threaded.txt");
     let python = environment_by(program, &folder, &requirements)?;
     let package = Package { folder, python };
-    package.build("dev")?;
+    package.develop("dev")?;
     const UNLOCKED: &str = "import slipstick, sys; sys.exit(sys._is_gil_enabled())";
     shell::run(package.command("-W error -c").arg(UNLOCKED))?;
     shell::run(&mut shell::cargo("build --quiet --package slipstick-cli"))?;
@@ -113,6 +131,30 @@ pub fn free_threaded() -> Outcome {
     pytest.arg(format!("{PACKAGE}/tests"));
     pytest.env("SLIPSTICK_COMMAND", slipstick).env("SLIPSTICK_ROOT", shell::root());
     shell::run(&mut pytest)
+}
+
+/// Builds the extension as the tests' own build does, and copies it to where Python looks for it.
+fn extension() -> Outcome {
+    shell::run(&mut shell::cargo("build --workspace --lib --bins --tests --quiet"))?;
+    let built = format!("{}_core{}", consts::DLL_PREFIX, consts::DLL_SUFFIX);
+    let built = shell::target_folder()?.join("debug").join(built);
+    let name = if cfg!(windows) { "_core.pyd" } else { "_core.abi3.so" };
+    let placed = shell::root().join(SOURCES).join("slipstick").join(name);
+    // What has been loaded is not written over while a process runs with it.
+    let _ = std::fs::remove_file(&placed);
+    std::fs::copy(&built, &placed)
+        .map(|_| ())
+        .map_err(|error| format!("{}: {error}", built.display()))
+}
+
+/// Lets the Python of an environment find the package where its sources are.
+pub fn findable(python: &Path) -> Outcome {
+    const FOLDER: &str = "import sysconfig; print(sysconfig.get_path('purelib'))";
+    let folder = shell::output(shell::command(python).args(["-c", FOLDER]))?;
+    let path = shell::root().join(SOURCES);
+    let file = Path::new(folder.trim()).join("slipstick.pth");
+    std::fs::write(&file, format!("{}\n", path.display()))
+        .map_err(|error| format!("{}: {error}", file.display()))
 }
 
 /// A Python that is new enough and can make environments.

@@ -25,7 +25,7 @@ pub fn reference(options: &[&str]) -> Outcome {
     if !matches!(options, [] | ["--write"]) {
         return Err(format!("reference: expected --write or nothing, found {}", options.join(" ")));
     }
-    let test = "test --quiet -p slipstick --test cases --test devices --test bidirectional -- --show-output";
+    let test = "test --quiet -p slipstick --test library -- --show-output cases:: devices:: bidirectional::";
     let log = shell::output(&mut shell::cargo(test))?;
     let mut all = Vec::new();
     for file in ["cases.json", "devices.json", "bidirectional.json"] {
@@ -54,7 +54,7 @@ fn said(log: &str) -> BTreeMap<&str, Said<'_>> {
     for line in log.lines() {
         if let Some(name) = line.strip_prefix("---- ").and_then(|l| l.strip_suffix(" stdout ----"))
         {
-            test = name;
+            test = name.rsplit("::").next().unwrap_or(name);
         }
         let parts = line.strip_prefix("case ").and_then(|line| {
             let (id, rest) = line.split_once(": ")?;
@@ -99,7 +99,7 @@ mod tests {
 
     #[test]
     fn a_line_of_a_test_becomes_a_row() {
-        let log = "running 1 test\n---- closed_form_harm stdout ----\n\
+        let log = "running 1 test\n---- cases::closed_form_harm stdout ----\n\
                    case HARM: 7 figures, worst 1.2e-3 of its tolerance 4.9e-11 (peak |z|)\n";
         let cases = serde_json::json!({ "cases": [{ "id": "HARM", "title": "a=A sin" }] });
         let table = table(&cases, &said(log)).expect("a table");

@@ -24,7 +24,7 @@ pub fn web(options: &[&str]) -> Outcome {
         ["--serve"] => true,
         _ => return Err("web: expected [--serve]".to_owned()),
     };
-    let folder = build()?;
+    let folder = build(Build::Page)?;
     eprintln!("wrote {}", folder.display());
     if serve { self::serve(&folder) } else { Ok(()) }
 }
@@ -45,7 +45,7 @@ pub fn bench(options: &[&str]) -> Outcome {
         _ => return Err("bench-web: expected [--write]".to_owned()),
     };
     let chromium = chromium().map_err(|reason| format!("bench-web: {reason}"))?;
-    let folder = build()?;
+    let folder = build(Build::Page)?;
     let mut bars = shell::command("node");
     bars.arg(shell::root().join(PAGE).join("tests/bars.mjs")).arg(&folder);
     let text = shell::output(bars.env("SLIPSTICK_CHROMIUM", chromium))?;
@@ -163,26 +163,54 @@ fn npm() -> &'static str {
     if cfg!(windows) { "npm.cmd" } else { "npm" }
 }
 
-/// Builds the page and returns its folder.
-pub fn build() -> Result<PathBuf, String> {
+/// How the page's modules are built.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Build {
+    /// With everything else for WebAssembly, as tests are built.
+    Tested,
+    /// As the page is handed out.
+    Page,
+}
+
+/// Builds all that is built for WebAssembly as tests are, once: the libraries, the page's modules, and the example
+/// that compares bits.
+///
+/// # Errors
+/// What does not build; that the target cannot be added.
+pub fn build_for_tests(golden: &str) -> Outcome {
+    let packages = MODULES.map(|m| format!("--package {m}")).join(" ");
+    let build = format!(
+        "build --quiet --lib --example golden --package slipstick --package slipstick-report {packages} \
+         --target {WASM}"
+    );
+    // The example compares its own bits with these, and returns the first that differs.
+    shell::run(shell::cargo(&build).env("SLIPSTICK_GOLDEN", golden))
+}
+
+/// Puts the page together and returns its folder; the modules for tests are those that are there.
+pub fn build(how: Build) -> Result<PathBuf, String> {
     if let Some(missing) = missing() {
         return Err(format!("web: {missing}"));
     }
     add_target()?;
-    let build = format!(
-        "build {} --profile page --target {WASM}",
-        MODULES.map(|m| format!("--package {m}")).join(" ")
-    );
-    shell::run(&mut shell::cargo(&build))?;
+    let profile = match how {
+        Build::Tested => "debug",
+        Build::Page => {
+            let packages = MODULES.map(|m| format!("--package {m}")).join(" ");
+            let build = format!("build {packages} --profile page --target {WASM}");
+            shell::run(&mut shell::cargo(&build))?;
+            "page"
+        }
+    };
     let target = shell::target_folder()?;
     let page = shell::root().join(PAGE);
     for name in MODULES.map(|name| name.replace('-', "_")) {
-        let module = target.join(WASM).join(format!("page/{name}.wasm"));
+        let module = target.join(WASM).join(profile).join(format!("{name}.wasm"));
         let bindgen = "run --quiet --package xtask --features bindgen --bin bindgen --";
         shell::run(shell::cargo(bindgen).arg(&module).arg(page.join("pkg")))?;
     }
     packages(&page)?;
-    let folder = target.join("web");
+    let folder = target.join(if how == Build::Page { "web" } else { "web-tested" });
     let mut put_together = shell::command("node");
     put_together.arg(page.join("build.mjs")).arg(&folder).arg(shell::root().join(WIDGET));
     shell::run(&mut put_together)?;

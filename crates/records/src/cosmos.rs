@@ -7,8 +7,8 @@
 //!
 //! Layout: COSMOS Strong Motion Programs Board, Strong Motion Data Format 1.20, 2001.
 
-use slipstick_dynamics::notice::{Notice, NoticeKind};
 use core::ops::Range;
+use slipstick_dynamics::notice::{Notice, NoticeKind};
 
 use super::component::azimuth;
 use super::fixed::{Cursor, Fields};

@@ -17,10 +17,10 @@ use super::{
     Channel, FilterCorners, Format, Options, Record, RecordError, Sampling, Units, counts_to_add,
     to_si,
 };
-use slipstick_dynamics::motion::MAX_SAMPLES;
-use slipstick_dynamics::notice::{Notice, NoticeKind};
 use decode::Encoding;
 use segments::{Segment, Streams};
+use slipstick_dynamics::motion::MAX_SAMPLES;
+use slipstick_dynamics::notice::{Notice, NoticeKind};
 
 /// A data record as its header has it.
 #[derive(Clone, Debug)]

@@ -16,9 +16,9 @@ use super::{
     Channel, FilterCorners, Format, Options, Quantity, Record, RecordError, Sampling,
     counts_to_add, to_si,
 };
+use header::{Header, TEXT_LINES};
 use slipstick_dynamics::motion::MAX_SAMPLES;
 use slipstick_dynamics::notice::{Notice, NoticeKind};
-use header::{Header, TEXT_LINES};
 
 /// Bytes of a binary header.
 const HEADER_BYTES: usize = 632;

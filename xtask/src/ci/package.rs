@@ -1,19 +1,43 @@
-//! The step of the Python package: built, tested, its types checked.
+//! The step of the Python package: put together, tested, its types checked.
 
 use super::{Problem, Tally};
-use crate::python::{PACKAGE, Package, new_environment};
-use crate::shell;
+use crate::python::{PACKAGE, Package, findable, new_environment};
+use crate::shell::{self, Outcome};
+use std::ffi::OsStr;
 use std::path::Path;
 
-/// Builds the package into an environment of its own and runs pytest, the examples of its docstrings, the
-/// notebooks, mypy and stubtest; compares the book's reference with the docstrings; tries the wheel on other
+/// Takes the extension that the tests' build made and runs pytest, the examples of the package's docstrings, the
+/// notebooks, mypy and stubtest; compares the book's reference with the docstrings; tries the extension on other
 /// Pythons.
 pub fn python(tally: &mut Tally) -> Result<(), Problem> {
     let package = Package::environment().map_err(Problem::NotRun)?;
-    package.build("dev")?;
-    let command = super::steps::tested("slipstick")?;
-    let mut pytest = package.command("-m pytest -q --no-header --tb=short --doctest-modules");
-    pytest.args([format!("{PACKAGE}/tests"), format!("{PACKAGE}/python")]);
+    package.assemble()?;
+    pytest(&package, &super::steps::tested("slipstick")?, Some("python"), tally)?;
+    let types = Path::new(PACKAGE).join("python/slipstick");
+    let config = format!("{PACKAGE}/pyproject.toml");
+    let mut mypy = package.command("-m mypy --no-error-summary --config-file");
+    shell::run(mypy.arg(&config).arg(types))?;
+    shell::run(&mut package.command("-m mypy.stubtest --concise slipstick._core"))?;
+    package.reference(false)?;
+    on_pythons("extension", tally, &|python| {
+        pip_install(python, "numpy".as_ref())?;
+        findable(python)
+    })
+}
+
+/// Runs the package's tests in an environment that has it, with a command beside them; the examples of docstrings
+/// too where the folder of sources is the package.
+pub fn pytest(
+    package: &Package,
+    command: &Path,
+    docstrings: Option<&str>,
+    tally: &mut Tally,
+) -> Result<(), Problem> {
+    let mut pytest = package.command("-m pytest -q --no-header --tb=short");
+    pytest.arg(format!("{PACKAGE}/tests"));
+    if let Some(folder) = docstrings {
+        pytest.arg("--doctest-modules").arg(format!("{PACKAGE}/{folder}"));
+    }
     pytest.env("SLIPSTICK_COMMAND", command).env("SLIPSTICK_ROOT", shell::root());
     let ended = pytest.output().map_err(|error| Problem::Failed(format!("pytest: {error}")))?;
     let text = String::from_utf8_lossy(&ended.stdout);
@@ -26,39 +50,41 @@ pub fn python(tally: &mut Tally) -> Result<(), Problem> {
         return Err(Problem::Failed(format!("pytest: {}", ended.status)));
     }
     println!("  {}", text.lines().last().unwrap_or_default());
-    let types = Path::new(PACKAGE).join("python/slipstick");
-    let config = format!("{PACKAGE}/pyproject.toml");
-    let mut mypy = package.command("-m mypy --no-error-summary --config-file");
-    shell::run(mypy.arg(&config).arg(types))?;
-    shell::run(&mut package.command("-m mypy.stubtest --concise slipstick._core"))?;
-    package.reference(false)?;
-    wheels(&package, tally)
+    Ok(())
 }
 
-/// Pythons on which the one wheel must work, which is built for the oldest.
+/// Pythons on which the one extension must work, which is built for the oldest.
 const PYTHONS: [&str; 3] = ["3.11", "3.12", "3.13"];
 
 /// What is run on each of them, in the root of the workspace.
 const FIRST_RUN: &str = "import slipstick as ss; r = ss.run(ss.Model.read('examples/taft.toml')); \
                          assert r.holds and len(r.history['time_s']) == r.summary['samples']";
 
-/// Installs the wheel on every Python that is found and runs an analysis there.
-fn wheels(package: &Package, tally: &mut Tally) -> Result<(), Problem> {
-    let folder = shell::target_folder()?.join("python-wheel");
-    let wheel = package.wheel("dev", &folder)?;
+/// Runs an analysis on every Python that is found, each in an environment that has been given the package.
+pub fn on_pythons(
+    what: &str,
+    tally: &mut Tally,
+    give: &dyn Fn(&Path) -> Outcome,
+) -> Result<(), Problem> {
+    let folder = shell::target_folder()?.join(format!("pythons-{what}"));
     for version in PYTHONS {
         let program = format!("python{version}");
         if !shell::answers(&program, "-c pass") {
             tally.skipped += 1;
-            println!("  not run: wheel on Python {version} (not found)");
+            println!("  not run: {what} on Python {version} (not found)");
             continue;
         }
         let python = new_environment(&program, &folder.join(version))?;
-        shell::run(shell::command(&python).args(["-m", "pip", "install", "--quiet"]).arg(&wheel))?;
+        give(&python)?;
         shell::run(shell::command(&python).args(["-c", FIRST_RUN]))?;
         tally.passed += 1;
     }
     Ok(())
+}
+
+/// Installs a package, by name or file, for a Python.
+pub fn pip_install(python: &Path, package: &OsStr) -> Outcome {
+    shell::run(shell::command(python).args(["-m", "pip", "install", "--quiet"]).arg(package))
 }
 
 /// What the last line says: `36 passed, 1 skipped in 20.1s`.

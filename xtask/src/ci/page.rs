@@ -1,19 +1,28 @@
-//! The step of the page: built, its types checked, used in a browser.
+//! The step of the page: put together, its types checked, used in a browser.
 
-use super::{Problem, Tally, package};
+use super::{Problem, Tally, package, steps};
+use crate::web::Build;
 use crate::{shell, web};
+use std::path::Path;
 
-/// Builds the page and uses it in Chromium as a person would.
+/// Puts the page together from the modules whose bits were compared and uses it in Chromium as a person would.
 pub fn page(tally: &mut Tally) -> Result<(), Problem> {
+    used(Build::Tested, &steps::tested("slipstick")?, tally)
+}
+
+/// Builds the page and uses it in Chromium, with a command beside it.
+pub fn used(how: Build, command: &Path, tally: &mut Tally) -> Result<(), Problem> {
     if let Some(missing) = web::missing() {
         return Err(Problem::NotRun(missing));
     }
     let chromium = web::chromium().map_err(Problem::NotRun)?;
-    let folder = web::build()?;
+    if how == Build::Tested {
+        steps::wasm_built()?;
+    }
+    let folder = web::build(how)?;
     let page = shell::root().join(web::PAGE);
     let types = page.join("node_modules/typescript/bin/tsc");
     shell::run(shell::command("node").arg(types).arg("--project").arg(&page))?;
-    let command = super::steps::tested("slipstick")?;
     let mut tests = shell::command("node");
     tests.arg(page.join("tests/page.mjs")).arg(&folder);
     tests.env("SLIPSTICK_CHROMIUM", chromium).env("SLIPSTICK_COMMAND", command);

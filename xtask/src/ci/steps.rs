@@ -1,9 +1,9 @@
 //! The steps that are one call of cargo or little more.
 
 use super::{Problem, Tally};
-use crate::shell;
+use crate::{shell, web};
 use serde_json::Value;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 const WASM: &str = "wasm32-unknown-unknown";
 
@@ -27,6 +27,11 @@ pub fn documentation(_: &mut Tally) -> Result<(), Problem> {
 
 /// Every model in `examples/` runs as it stands and gives JSON; of every study there, one part runs.
 pub fn examples(tally: &mut Tally) -> Result<(), Problem> {
+    examples_by(&tested("slipstick")?, tally)
+}
+
+/// The same by a given command.
+pub fn examples_by(slipstick: &Path, tally: &mut Tally) -> Result<(), Problem> {
     let (mut plans, mut models) = (Vec::new(), Vec::new());
     for file in toml_files("examples")? {
         match kind(&file) {
@@ -38,10 +43,9 @@ pub fn examples(tally: &mut Tally) -> Result<(), Problem> {
     if models.is_empty() {
         return Err(Problem::NotRun("no models in examples/".to_owned()));
     }
-    let slipstick = tested("slipstick")?;
     let mut failed = Vec::new();
     for model in &models {
-        let mut run = shell::command(&slipstick);
+        let mut run = shell::command(slipstick);
         run.arg("run").arg(model).args(["--json", "-q"]);
         let printed = shell::output(&mut run)
             .and_then(|text| serde_json::from_str(&text).map_err(|error| error.to_string()));
@@ -53,7 +57,7 @@ pub fn examples(tally: &mut Tally) -> Result<(), Problem> {
     }
     println!("  {} of {} models ran", models.len() - failed.len(), models.len());
     for plan in &plans {
-        study(&slipstick, plan, tally, &mut failed)?;
+        study(slipstick, plan, tally, &mut failed)?;
     }
     tally.failed += failed.len() as u64;
     if failed.is_empty() { Ok(()) } else { Err(Problem::Failed(failed.join("; "))) }
@@ -88,7 +92,7 @@ fn kind(file: &str) -> Kind {
 
 /// Runs one part of a study, a small one whole; a study whose records are not there is skipped.
 fn study(
-    slipstick: &PathBuf,
+    slipstick: &Path,
     plan: &str,
     tally: &mut Tally,
     failed: &mut Vec<String>,
@@ -125,18 +129,28 @@ pub fn console(_: &mut Tally) -> Result<(), Problem> {
     if !shell::answers("sh", "-c true") {
         return Err(Problem::NotRun("found no sh".to_owned()));
     }
-    let slipstick = tested("slipstick")?;
-    let folder = slipstick.parent().unwrap_or(&slipstick);
+    console_by(&tested("slipstick")?)
+}
+
+/// The same by a given command, which is called `slipstick`.
+pub fn console_by(slipstick: &Path) -> Result<(), Problem> {
+    let folder = slipstick.parent().unwrap_or(slipstick);
     let (blocks, differing) = crate::console::pages(folder, false)?;
     println!("  {blocks} blocks of commands, {} pages differ", differing.len());
     if differing.is_empty() { Ok(()) } else { Err(Problem::Failed(differing.join("; "))) }
 }
 
-/// `core` and `report` build for the browser.
+/// All that runs in a browser builds for it.
 pub fn wasm_build(_: &mut Tally) -> Result<(), Problem> {
+    wasm_built().map(drop)
+}
+
+/// Builds all that is built for WebAssembly, once; what the example `golden` gives here.
+pub(super) fn wasm_built() -> Result<String, Problem> {
     ensure_wasm()?;
-    let build = format!("build -p slipstick -p slipstick-report --target {WASM}");
-    Ok(shell::run(&mut shell::cargo(&build))?)
+    let golden = shell::output(&mut shell::command(tested("examples/golden")?))?;
+    web::build_for_tests(golden.trim())?;
+    Ok(golden.trim().to_owned())
 }
 
 /// The example `golden` gives the same bits here and in WebAssembly.
@@ -145,11 +159,7 @@ pub fn wasm_golden(_: &mut Tally) -> Result<(), Problem> {
     let host = wasm_host().ok_or_else(|| {
         Problem::NotRun("found neither node nor wasmtime to run WebAssembly".to_owned())
     })?;
-    let golden = shell::output(&mut shell::command(tested("examples/golden")?))?;
-    println!("  here:  {}", golden.trim());
-    let build = format!("build --quiet -p slipstick --example golden --target {WASM}");
-    // The program compares its own bits with these, and returns the first that differs.
-    shell::run(shell::cargo(&build).env("SLIPSTICK_GOLDEN", golden.trim()))?;
+    println!("  here:  {}", wasm_built()?);
     let module = shell::target_folder()?.join(WASM).join("debug/examples/golden.wasm");
     let code = shell::output(&mut host(&module))?;
     match code.trim() {

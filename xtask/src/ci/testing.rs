@@ -7,8 +7,19 @@ use std::process::Stdio;
 
 /// All tests of the workspace, doc tests included.
 pub fn tests(tally: &mut Tally) -> Result<(), Problem> {
+    counted("", tally)
+}
+
+/// Those that take minutes, and how often intervals cover the truth. What writes reference values is no test.
+pub fn long(tally: &mut Tally) -> Result<(), Problem> {
+    counted("--ignored --skip write_", tally)
+}
+
+/// `cargo test` with these options of the test programs.
+fn counted(options: &str, tally: &mut Tally) -> Result<(), Problem> {
     // --show-output: a test that skips something says so on its own output.
-    let mut cargo = shell::cargo("test --workspace --no-fail-fast -- --show-output");
+    let test = format!("test --workspace --no-fail-fast -- --show-output {options}");
+    let mut cargo = shell::cargo(&test);
     let mut child =
         cargo.stdout(Stdio::piped()).spawn().map_err(|error| format!("cargo test: {error}"))?;
     let mut log = Log::default();

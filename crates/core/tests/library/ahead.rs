@@ -196,7 +196,7 @@ fn peer_event_stepping_on_random_devices() {
 }
 
 #[test]
-#[ignore = "minutes: cargo test --release -p slipstick --test ahead -- --ignored"]
+#[ignore = "minutes: cargo xtask nightly"]
 fn peer_event_stepping_on_many_random_devices() {
     agree(0, 10_000);
 }

@@ -111,7 +111,7 @@ fn prop_two_equal_items_are_one_of_their_mass() {
 }
 
 #[test]
-#[ignore = "a minute: cargo test -p slipstick --test corners -- --ignored"]
+#[ignore = "a minute: cargo xtask nightly"]
 fn prop_two_equal_items_are_one_of_their_mass_in_many_models() {
     two_are_one(0..1000);
 }
@@ -214,7 +214,7 @@ fn prop_a_jump_is_the_limit_of_steep_ramps() {
 }
 
 #[test]
-#[ignore = "minutes: cargo test -p slipstick --test corners -- --ignored"]
+#[ignore = "minutes: cargo xtask nightly"]
 fn prop_a_jump_is_the_limit_of_steep_ramps_in_many_models() {
     jumps_are_ramps(0..3000);
 }

@@ -126,10 +126,10 @@ fn changed(model: &Model, motion: &GroundMotion, part: f64) -> Option<Vec<f64>> 
 }
 
 #[test]
-#[ignore = "writes: cargo test -p slipstick --test demands -- --ignored"]
+#[ignore = "writes: cargo test -p slipstick --test library demands:: -- --ignored"]
 fn write_the_demands() {
     let mut text = String::from(
-        "# Demands of random systems, written by cargo test -p slipstick --test demands -- --ignored\n",
+        "# Demands of random systems, written by cargo test -p slipstick --test library demands:: -- --ignored\n",
     );
     for (name, model, motion) in systems() {
         let Ok(response) = exact(&model, &motion) else { continue };

@@ -383,7 +383,7 @@ fn reference_coincident_contents() {
 
 /// The same of ten thousand.
 #[test]
-#[ignore = "minutes: cargo test -p slipstick --test devices_nasty -- --ignored --nocapture"]
+#[ignore = "minutes: cargo xtask nightly"]
 fn reference_many_coincident_contents() {
     coincident_agree(0..10_000);
 }
@@ -402,7 +402,7 @@ fn reference_bounces_off_a_rigid_stop_with_a_surface_at_its_end() {
 
 /// The same of ten thousand; `SLIPSTICK_SEEDS=0..20000` takes others.
 #[test]
-#[ignore = "minutes: cargo test -p slipstick --test devices_nasty -- --ignored --nocapture"]
+#[ignore = "minutes: cargo xtask nightly"]
 fn reference_nasty_many_devices() {
     let given = std::env::var("SLIPSTICK_SEEDS").unwrap_or_default();
     let range =

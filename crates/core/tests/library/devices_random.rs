@@ -46,7 +46,7 @@ fn bounces_beside_a_join_and_an_end_are_certified() {
 
 /// The same of ten thousand.
 #[test]
-#[ignore = "minutes: cargo test -p slipstick --test devices_random -- --ignored"]
+#[ignore = "minutes: cargo xtask nightly"]
 fn prop_many_random_devices_are_certified_and_have_no_side() {
     certified(0, 10_000);
 }

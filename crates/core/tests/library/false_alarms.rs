@@ -80,7 +80,7 @@ fn prop_sensible_models_raise_no_alarm() {
 
 /// The same of three thousand of either kind; `SLIPSTICK_SEEDS=0..20000` takes others.
 #[test]
-#[ignore = "minutes: cargo test -p slipstick --test false_alarms -- --ignored --nocapture"]
+#[ignore = "minutes: cargo xtask nightly"]
 fn prop_many_sensible_models_raise_no_alarm() {
     no_alarm(seeds(0..6000));
 }

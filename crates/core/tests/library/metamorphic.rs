@@ -4,7 +4,7 @@
 //! wherever a change of the input by 1e-12 moves it by less; and all are certified.
 //!
 //! Half of the systems are what an engineer would write, half are anything, with all devices. Thousands:
-//! `SLIPSTICK_SEEDS=0..5000 cargo test -p slipstick --test metamorphic -- --nocapture`.
+//! `SLIPSTICK_SEEDS=0..5000 cargo test -p slipstick --test library metamorphic:: -- --nocapture`.
 
 // The numbers of a run are for people who look for them with --nocapture; helpers of tests may panic as
 // tests do; a seed from outside to look for more.

@@ -9,7 +9,8 @@ use slipstick::input::{ModalOptions, ModalTable, Share, read_modes};
 const SAP2000: &str = include_str!("../../../../examples/structures/sap2000-layout.csv");
 const ETABS: &str = include_str!("../../../../examples/structures/etabs-layout.csv");
 const REPORT: &str = include_str!("../../../../examples/structures/opensees-modal.txt");
-const EIGENVECTORS: &str = include_str!("../../../../examples/structures/opensees-eigenvectors.csv");
+const EIGENVECTORS: &str =
+    include_str!("../../../../examples/structures/opensees-eigenvectors.csv");
 
 fn read(text: &str) -> ModalTable {
     read_modes(&[("export.csv", text)], &ModalOptions::default()).expect("a table")

@@ -1,7 +1,7 @@
 //! Screened propagation against event stepping, and running ahead against the way that serves all models:
 //! random systems under long records, every demand, every count, every number of a history.
 //!
-//! The long run, 10 000 systems of each kind: `cargo test --release -p slipstick --test screening -- --ignored`.
+//! The long run, 10 000 systems of each kind: `cargo test --release -p slipstick --test library screening:: -- --ignored`.
 
 // Helpers of tests may panic as tests do.
 #![allow(clippy::disallowed_macros, clippy::expect_used)]
@@ -364,7 +364,7 @@ fn peer_general_way_on_random_systems() {
 }
 
 #[test]
-#[ignore = "minutes"]
+#[ignore = "minutes: cargo xtask nightly"]
 fn peer_general_way_on_many_random_systems() {
     agree_ahead(700_000, AHEAD[1], runs_ahead);
     agree_ahead(800_000, AHEAD[1], nasty_ahead);

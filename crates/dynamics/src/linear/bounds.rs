@@ -5,7 +5,7 @@
 mod norms;
 mod polynomials;
 #[allow(dead_code)]
-#[path = "../../../core/tests/common/random.rs"]
+#[path = "../../../core/tests/library/common/random.rs"]
 mod random;
 mod systems;
 mod taylor;

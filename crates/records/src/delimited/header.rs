@@ -1,9 +1,9 @@
 //! What stands before the numbers: comments, text, names of the columns with their units.
 
 use super::style::Separator;
-use slipstick_dynamics::error::RecordError;
 use crate::text::{Line, Text, number};
 use crate::unit::{Units, seconds};
+use slipstick_dynamics::error::RecordError;
 use slipstick_dynamics::units::{Dimension, parse_unit};
 
 /// Most lines of text, comments not counted, before the numbers.

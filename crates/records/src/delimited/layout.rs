@@ -2,10 +2,10 @@
 
 use super::header::{Header, Name, Unit};
 use super::table::Table;
-use slipstick_dynamics::error::RecordError;
-use slipstick_dynamics::motion::{Gap, MAX_SAMPLES, gap};
 use crate::sampling;
 use crate::text::Text;
+use slipstick_dynamics::error::RecordError;
+use slipstick_dynamics::motion::{Gap, MAX_SAMPLES, gap};
 
 /// What the columns are.
 pub(super) struct Layout {

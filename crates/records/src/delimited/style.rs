@@ -1,8 +1,8 @@
 //! What divides the numbers of a line, and what marks their decimals.
 
 use super::header::{Header, is_comment};
-use slipstick_dynamics::error::RecordError;
 use crate::text::{Line, Text, number, number_with_comma};
+use slipstick_dynamics::error::RecordError;
 
 /// What stands between two numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

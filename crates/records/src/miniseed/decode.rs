@@ -1,8 +1,8 @@
 //! Codings of samples: whole numbers, numbers with a point, and differences (Steim 1 and 2).
 
 use super::DataRecord;
-use slipstick_dynamics::error::RecordError;
 use crate::bytes::{Bytes, Order, f32_at, f64_at, i16_at, i32_at, u32_at};
+use slipstick_dynamics::error::RecordError;
 
 /// Codes of encodings in blockette 1000 and in version 3.
 pub(super) const TEXT: u8 = 0;

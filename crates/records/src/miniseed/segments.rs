@@ -2,10 +2,10 @@
 
 use super::DataRecord;
 use super::decode::samples;
+use crate::bytes::Bytes;
 use slipstick_dynamics::error::RecordError;
 use slipstick_dynamics::notice::{Notice, NoticeKind};
 use slipstick_dynamics::numerics::sort;
-use crate::bytes::Bytes;
 
 /// What a record's time may be off by its rounding, in s.
 const CLOCK_S: f64 = 1e-9;

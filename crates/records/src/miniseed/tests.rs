@@ -1,8 +1,8 @@
 use super::decode::differences;
 use super::nanoseconds;
-use slipstick_dynamics::notice::NoticeKind;
 use crate::bytes::Order;
 use crate::{Options, Record, RecordError, Units, read};
+use slipstick_dynamics::notice::NoticeKind;
 
 /// A frame of 16 words: the first from codes of two bits, the others as given.
 fn frame(codes: &[u32], words: &[u32], order: Order) -> Vec<u8> {

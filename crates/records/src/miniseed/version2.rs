@@ -2,8 +2,8 @@
 
 use super::decode::Encoding;
 use super::{DataRecord, nanoseconds};
-use slipstick_dynamics::error::RecordError;
 use crate::bytes::{Bytes, Order, decimal, f32_at, i16_at, i32_at, text_at, u8_at, u16_at};
+use slipstick_dynamics::error::RecordError;
 
 /// Bytes of the fixed part.
 const FIXED: usize = 48;

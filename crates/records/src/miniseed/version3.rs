@@ -2,8 +2,8 @@
 
 use super::decode::{Encoding, STEIM1, STEIM2};
 use super::{DataRecord, nanoseconds};
-use slipstick_dynamics::error::RecordError;
 use crate::bytes::{Bytes, Order, f64_at, u8_at, u16_at, u32_at};
+use slipstick_dynamics::error::RecordError;
 
 /// Bytes of the fixed part.
 const FIXED: usize = 40;

@@ -1,8 +1,8 @@
 //! The header of a SAC file: 70 numbers with a point, 40 whole numbers, 192 characters.
 
-use slipstick_dynamics::notice::{Notice, NoticeKind};
 use crate::bytes::{Order, f32_at, i32_at, text_at};
 use crate::text::{Text, number};
+use slipstick_dynamics::notice::{Notice, NoticeKind};
 
 /// What stands for a number that is not defined.
 pub(super) const NONE: i32 = -12345;

@@ -87,11 +87,6 @@ impl Reference {
         let at_once = self.events.iter().take_while(|e| e.time_s == 0.0);
         at_once.last().map_or(self.samples[0].mode, |e| e.mode)
     }
-
-    /// Number of events of a kind.
-    pub fn count(&self, kind: EventKind) -> usize {
-        self.events.iter().filter(|e| e.kind == kind).count()
-    }
 }
 
 /// A stretch over which the table's accelerations are linear and contact holds or not.
