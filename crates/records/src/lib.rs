@@ -1,4 +1,8 @@
-//! Record formats: bytes in, `Result` out; one file a format.
+#![doc = include_str!("../README.md")]
+//!
+//! # How it is built
+//!
+//! One file a format: bytes in, `Result` out.
 //!
 //! A reader says what it understood, and refuses what it cannot read with line, column and reason.
 //! What a file does not state (units, time step) must be given in [`Options`]; what it states
