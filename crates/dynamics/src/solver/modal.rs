@@ -27,9 +27,11 @@ use super::slider::ROUNDING;
 use super::tables::{Batch, LazyPhase, PhaseTables, Tables};
 use super::walk::Walk;
 use crate::error::SolveError;
-use crate::linear::lanes::{Eight, Width, combine8, dot, eight};
+use crate::linear::lanes::{Eight, Many, One, Width, combine8, dot, eight};
 use crate::linear::polynomial::{Polynomial, derivative};
 use crate::linear::{BATCH, Force, Series};
+use crate::numerics::InstructionSet;
+use crate::numerics::instructions::vectorize;
 use crate::response::Mode;
 use crate::response::output::{self, Output};
 use crate::slider::{Affine, Contact, EXITS, Exit, Fading, Hold, Law, Restraint};
@@ -120,10 +122,34 @@ impl InForce<'_> {
     }
 }
 
-/// State, series and peaks of an analysis by modes.
-pub(super) struct Modal<'a, S, W> {
+/// By which vector instructions kernels go, and for how many storeys: what the compiler knows inside them, and
+/// nothing outside.
+#[derive(Clone, Copy)]
+pub(super) struct How<S, W> {
     simd: S,
     width: W,
+}
+
+/// Work of a kernel by the instructions and for the storeys of a phase: `by!(modal, how => work)`.
+macro_rules! by {
+    ($modal:expr, $how:ident => $work:expr) => {
+        vectorize!($modal.instructions, simd => match $modal.modes {
+            0 | 1 => {
+                let $how = How { simd, width: One };
+                $work
+            }
+            modes => {
+                let $how = How { simd, width: Many(modes) };
+                $work
+            }
+        })
+    };
+}
+
+/// State, series and peaks of an analysis by modes.
+pub(super) struct Modal<'a> {
+    instructions: InstructionSet,
+    modes: usize,
     tables: &'a Tables,
     law: &'a Law<'a>,
     ground: Ground<'a>,
@@ -160,17 +186,17 @@ pub(super) struct Modal<'a, S, W> {
     candidates: Vec<dense::Candidate>,
 }
 
-impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
+impl<'a> Modal<'a> {
     pub(super) fn new(
-        (simd, width): (S, W),
+        (instructions, modes): (InstructionSet, usize),
         (tables, law): (&'a Tables, &'a Law<'a>),
         ground: Ground<'a>,
         recorder: Option<Recorder>,
         buffers: &mut Buffers,
     ) -> Self {
         let system = &tables.stick.system;
-        let stride = 4 * width.fours();
-        let n = width.modes();
+        let stride = 4 * Many(modes).fours();
+        let n = modes;
         let [mut x, next] = buffers.states.each_mut().map(|x| Buffers::list(x, stride, 0.0));
         x.copy_from_slice(&tables.start);
         let outputs = Output::count(system.points(), 0);
@@ -191,13 +217,14 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
             fading: None,
         };
         let of_dense = tables.dense.as_deref();
-        let dense =
-            of_dense.and_then(|of| Dense::new(simd, (of, &tables.stick.system), law, ground));
+        let of_dense = of_dense.map(|of| (of, &*tables.stick.system));
+        let dense = of_dense
+            .and_then(|of| vectorize!(instructions, simd => Dense::new(simd, of, law, ground)));
         let mut candidates = take(&mut buffers.candidates);
         candidates.clear();
         Self {
-            simd,
-            width,
+            instructions,
+            modes,
             tables,
             law,
             ground,
@@ -263,13 +290,13 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
 
     /// Groups of eight outputs; those of one storey are one.
     #[inline(always)]
-    pub(super) fn groups(&self, phase: &PhaseTables) -> usize {
-        if self.width.modes() == 1 { 1 } else { phase.outputs.groups.len() }
+    pub(super) fn groups<S: Simd, W: Width>(&self, how: How<S, W>, phase: &PhaseTables) -> usize {
+        if how.width.modes() == 1 { 1 } else { phase.outputs.groups.len() }
     }
 
     /// A group of outputs in a padded state.
     #[inline(always)]
-    pub(super) fn group_at(
+    pub(super) fn group_at<S: Simd>(
         simd: S,
         phase: &PhaseTables,
         g: usize,
@@ -287,8 +314,9 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
     /// at most `√M_tot |Δa| + |ΔT|/√M1`; from its chord over `n` samples a polyline departs by no more
     /// than `n/4` times the sum of its second differences.
     #[inline(always)]
-    pub(super) fn curvature(
+    pub(super) fn curvature<S: Simd, W: Width>(
         &mut self,
+        how: How<S, W>,
         phase: &PhaseTables,
         coefficient: f64,
         sample: usize,
@@ -305,9 +333,8 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
         };
         let system = &phase.system;
         let loads = [[a[sample], jerk], [force, force_rate]];
-        let how = (self.simd, self.width);
         let [first, second] = Self::derivative_norms(how, phase, &self.x, loads, &mut self.scratch);
-        let horizontal = Roughness::new(self.simd, self.window(sample));
+        let horizontal = Roughness::new(how.simd, self.window(sample));
         let of_a = if phase.slip { system.root_total_mass } else { system.root_storey_mass };
         let mut curvature = Curvature {
             first: first + of_a * horizontal.variation,
@@ -318,7 +345,7 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
             bend_of_force: 0.0,
         };
         if let (Some(normal), true) = (self.ground.normal.window(sample), coefficient != 0.0) {
-            let vertical = Roughness::new(self.simd, normal);
+            let vertical = Roughness::new(how.simd, normal);
             let of_normal = coefficient.abs();
             let of_norm = of_normal * system.per_root_block;
             curvature.first += of_norm * vertical.variation;
@@ -333,8 +360,8 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
 
     /// Energy norms of `ẋ` and `ẍ` in a state under an acceleration and a force, each with its rate.
     #[inline(always)]
-    pub(super) fn derivative_norms(
-        (simd, width): (S, W),
+    pub(super) fn derivative_norms<S: Simd, W: Width>(
+        How { simd, width }: How<S, W>,
         phase: &PhaseTables,
         x: &[f64],
         [load, force]: [[f64; 2]; 2],
@@ -346,6 +373,11 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
             return system.derivative_norms(simd, slip, x, load, force, [&mut f, &mut eta2]);
         }
         system.derivative_norms(simd, slip, x, load, force, [f, eta2])
+    }
+
+    /// Expands the motion from a time of a stretch.
+    fn expand_from(&mut self, stretch: &Stretch, from_s: f64) {
+        by!(self, how => self.expand_motion(how, stretch, from_s));
     }
 
     // ---- what is kept ---------------------------------------------------------------------------
@@ -382,7 +414,7 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
     #[inline(always)]
     fn set_limits(&mut self) {
         for (limit, peak) in self.peaks.limit.iter_mut().zip(&self.peaks.peak) {
-            peak.load(self.simd).store_slice(&mut limit.0);
+            *limit = *peak;
         }
         if let (Mode::Stick, Normal::Constant(normal)) = (self.now.mode, self.ground.normal) {
             let bound = self.law.largest_static_n(normal) * (1.0 - 1e-14);
@@ -398,13 +430,10 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
     }
 }
 
-impl<'a, S: Simd, W: Width> Phase<'a> for Modal<'a, S, W> {
+impl<'a> Phase<'a> for Modal<'a> {
     #[inline(never)]
     fn step(walk: &mut Walk<'a, Self>, sample: usize, from_s: f64) -> Result<(), SolveError> {
-        walk.phase.simd.vectorize(
-            #[inline(always)]
-            || walk.step(sample, from_s),
-        )
+        walk.step(sample, from_s)
     }
 
     #[inline(always)]
@@ -412,13 +441,16 @@ impl<'a, S: Simd, W: Width> Phase<'a> for Modal<'a, S, W> {
         walk: &mut Walk<'a, Self>,
         [sample, end]: [usize; 2],
     ) -> Result<Reached, SolveError> {
-        let simd = walk.phase.simd;
+        let instructions = walk.phase.instructions;
         if let Some((dense, shared)) = Self::sharing(walk) {
-            let reached = dense.run_ahead(simd, shared, [sample, end])?;
+            let ahead =
+                vectorize!(instructions, simd => dense.run_ahead(simd, shared, [sample, end]));
+            let reached = ahead?;
             walk.phase.enter(&walk.course);
             return Ok(reached);
         }
-        let sample = walk.phase.screened((&walk.course, &mut walk.pulse), sample, end);
+        let (phase, course) = (&mut walk.phase, (&walk.course, &mut walk.pulse));
+        let sample = by!(phase, how => phase.screened(how, course, sample, end));
         Ok(Reached { sample, at_s: 0.0 })
     }
 
@@ -458,11 +490,12 @@ impl<'a, S: Simd, W: Width> Phase<'a> for Modal<'a, S, W> {
 
     fn end(walk: &mut Walk<'a, Self>, end_s: f64) {
         walk.end_leaning(end_s);
-        let simd = walk.phase.simd;
+        let instructions = walk.phase.instructions;
         if let Some((dense, shared)) = Self::sharing(walk) {
-            dense.settle(simd, shared);
+            vectorize!(instructions, simd => dense.settle(simd, shared));
         }
-        walk.phase.settle_peaks();
+        let phase = &mut walk.phase;
+        by!(phase, how => phase.settle_peaks(how));
     }
 
     /// Finds what follows from mode and memory.
@@ -524,7 +557,7 @@ impl<'a, S: Simd, W: Width> Phase<'a> for Modal<'a, S, W> {
     }
 }
 
-impl<'a, S: Simd, W: Width> Straight<'a> for Modal<'a, S, W> {
+impl<'a> Straight<'a> for Modal<'a> {
     type Expansion = Motion;
     type State = Vec<f64>;
 
@@ -552,7 +585,7 @@ impl<'a, S: Simd, W: Width> Straight<'a> for Modal<'a, S, W> {
 
     #[inline(always)]
     fn demand_n(&mut self, hold: &Hold, [acceleration, _]: [f64; 2]) -> f64 {
-        let (system, n) = (&self.tables.stick.system, self.width.modes());
+        let (system, n) = (&self.tables.stick.system, self.modes);
         let (eta, rate) = (&self.x[2..2 + n], &self.x[2 + n..2 + 2 * n]);
         let f = &mut self.scratch[0];
         system.restoring(eta, rate, f);
@@ -566,14 +599,14 @@ impl<'a, S: Simd, W: Width> Straight<'a> for Modal<'a, S, W> {
 
     #[inline(always)]
     fn expand(&mut self, _: &Course<'a>, stretch: &Stretch, from_s: f64) -> Segment {
-        self.expand_motion(stretch, from_s);
+        self.expand_from(stretch, from_s);
         self.motion.segment
     }
 
     fn look_at_instant(&mut self, _: &Course<'a>, stretch: &Stretch, at_s: f64) {
         let fading_s = self.fading_s;
         swap(&mut self.motion, &mut self.instant);
-        self.expand_motion(stretch, at_s);
+        self.expand_from(stretch, at_s);
         swap(&mut self.motion, &mut self.instant);
         self.fading_s = fading_s;
     }
@@ -653,7 +686,7 @@ impl<'a, S: Simd, W: Width> Straight<'a> for Modal<'a, S, W> {
 
     #[inline(always)]
     fn move_to(&mut self, part: f64) {
-        self.move_motion(part);
+        by!(self, how => self.move_motion(how, part));
     }
 
     #[inline(always)]
@@ -661,6 +694,6 @@ impl<'a, S: Simd, W: Width> Straight<'a> for Modal<'a, S, W> {
         if self.law.has_pads() {
             self.look_at_stop(course, segment.part);
         }
-        self.look_at_outputs(stretch, segment);
+        by!(self, how => self.look_at_outputs(how, stretch, segment));
     }
 }

@@ -3,8 +3,6 @@
 use core::mem::take;
 use std::sync::Arc;
 
-use fearless_simd::prelude::*;
-
 use super::course::{Course, Sliding};
 use super::ground::{Ground, Normal, Sampling, contact_loss_s, varying_normal};
 use super::modal::{Buffers, Modal};
@@ -16,7 +14,6 @@ use super::tables::{self, Tables};
 use super::walk::Walk;
 use super::{direct, plane, summary};
 use crate::error::SolveError;
-use crate::linear::lanes::{Many, One, Width};
 use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::numerics::InstructionSet;
@@ -342,10 +339,7 @@ fn solve_along_x(
         pulse: Pulse::new(go_on),
         buffers: &mut workspace.buffers,
     };
-    let solved = vectorize!(instructions, simd => match model.storeys() {
-        0 | 1 => of.solve(simd, One),
-        n => of.solve(simd, Many(n)),
-    });
+    let solved = of.solve(instructions);
     let (mut outcome, recorder) = match solved {
         // What would happen beyond a rigid stop says nothing.
         Err(error) if law.walls_m().is_some() && !matches!(error, SolveError::Stopped(_)) => {
@@ -485,19 +479,19 @@ struct Analysis<'a> {
 }
 
 impl Analysis<'_> {
-    #[inline(always)]
-    fn solve<S: Simd, W: Width>(
+    fn solve(
         self,
-        simd: S,
-        width: W,
+        instructions: InstructionSet,
     ) -> Result<(Outcome, Option<Recorder>), SolveError> {
         let Analysis { model, tables, law, ground, recorder, pulse, buffers } = self;
         let lists = (take(&mut buffers.released), take(&mut buffers.events));
-        let phase = Modal::new((simd, width), (tables, law), ground, recorder, buffers);
+        // A rigid block has one mode that does nothing.
+        let modes = model.storeys().max(1);
+        let phase = Modal::new((instructions, modes), (tables, law), ground, recorder, buffers);
         let place = phase.place(0);
         let course = Course::new(SliderState::new(law, place[0], place[1]), place, lists);
         let before = [model.slope_m_per_s2(), model.normal_n()];
-        let units = 32 * (1 + width.modes() as u32);
+        let units = 32 * (1 + modes as u32);
         let mut walk = Walk::new((phase, course), (ground, before), (pulse, units));
         walk.go()?;
         let outcome = walk.outcome(tables.overturns());

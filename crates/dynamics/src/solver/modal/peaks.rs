@@ -14,7 +14,7 @@ use super::super::ground::Stretch;
 use super::super::phase::Segment;
 use super::series::output_series;
 use super::settle::Scratch;
-use super::{Curvature, InForce, Modal};
+use super::{Curvature, How, InForce, Modal};
 use crate::linear::lanes::{Eight, Width, eight, greatest, larger};
 use crate::linear::polynomial::{Polynomial, curvature_bound, largest};
 use crate::response::Mode;
@@ -134,11 +134,16 @@ impl Peaks {
     }
 }
 
-impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
+impl<'a> Modal<'a> {
     /// Looks at a segment from `next` to `x`.
     #[inline(always)]
-    pub(super) fn look_at_outputs(&mut self, stretch: &Stretch, segment: &Segment) {
-        let (simd, load) = (self.simd, self.motion.load);
+    pub(super) fn look_at_outputs<S: Simd, W: Width>(
+        &mut self,
+        how: How<S, W>,
+        stretch: &Stretch,
+        segment: &Segment,
+    ) {
+        let (simd, load) = (how.simd, self.motion.load);
         let phase = self.now.tables.get();
         // ‖ẍ‖ and the rate of what fades, times the unit squared.
         let part = segment.part;
@@ -148,13 +153,8 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
             let per_unit = 1.0 / segment.unit_s;
             let of_a = [load.acceleration, load.acceleration_change * per_unit];
             let of_force = [load.force, load.force_change * per_unit];
-            let [_, second] = Self::derivative_norms(
-                (simd, self.width),
-                phase,
-                &self.next,
-                [of_a, of_force],
-                &mut self.scratch,
-            );
+            let [_, second] =
+                Self::derivative_norms(how, phase, &self.next, [of_a, of_force], &mut self.scratch);
             (phase.growth * second * (segment.unit_s * segment.unit_s), 0.0)
         };
         let reach = eight(simd, 0.125 * norm * (part * part));
@@ -165,9 +165,9 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
             [friction_n, stretch.acceleration_at(at_s), stop]
         };
         let (first, last) = (input(segment.from_s, self.next[1]), input(segment.to_s, self.x[1]));
-        let stride = 4 * self.width.fours();
+        let stride = 4 * how.width.fours();
         let mut open = false;
-        for g in 0..self.groups(phase) {
+        for g in 0..self.groups(how, phase) {
             let a = Self::group_at(simd, phase, g, &self.next[..stride], first);
             let b = Self::group_at(simd, phase, g, &self.x[..stride], last);
             let group = &phase.outputs.groups[g];
@@ -176,19 +176,24 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
             } else {
                 group.norm.load(simd) * reach + group.size_of_friction.load(simd) * bend
             };
-            open |= self.weigh(g, [a, b], slack, None);
+            open |= self.weigh(how, g, [a, b], slack, None);
         }
         if open && self.now.fading.is_some() {
-            self.settle_fading(stretch, segment);
+            self.settle_fading(how, stretch, segment);
         } else if open {
-            self.keep(stretch.interval, Extent::Segment(*segment), true);
+            self.keep(how, stretch.interval, Extent::Segment(*segment), true);
         }
     }
 
     /// Looks for peaks in the last series, of friction that fades, in those outputs whose bounds in
     /// `above` leave one.
     #[inline(never)]
-    fn settle_fading(&mut self, stretch: &Stretch, segment: &Segment) {
+    fn settle_fading<S: Simd, W: Width>(
+        &mut self,
+        how: How<S, W>,
+        stretch: &Stretch,
+        segment: &Segment,
+    ) {
         let phase = self.now.tables.get();
         let load = stretch.load(segment.from_s, segment.unit_s, self.now.friction);
         for j in 0..self.peaks.outputs {
@@ -196,14 +201,7 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
             if self.peaks.above[g].0[lane] <= self.peaks.peak[g].0[lane] {
                 continue;
             }
-            let mut p = output_series(
-                (self.simd, self.width),
-                phase,
-                j,
-                &self.series,
-                &load,
-                self.now.stop,
-            );
+            let mut p = output_series(how, phase, j, &self.series, &load, self.now.stop);
             for (p, fade) in p.iter_mut().zip(&self.series.fade) {
                 *p += phase.outputs.rows[j].of_friction * fade;
             }
@@ -216,14 +214,15 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
     /// from the chord between, and perhaps another bound. Leaves its bounds in `above`; whether one is
     /// above its limit.
     #[inline(always)]
-    pub(super) fn weigh(
+    pub(super) fn weigh<S: Simd, W: Width>(
         &mut self,
+        how: How<S, W>,
         g: usize,
         [a, b]: [f64x8<S>; 2],
         slack: f64x8<S>,
         most: Option<f64x8<S>>,
     ) -> bool {
-        let simd = self.simd;
+        let simd = how.simd;
         let (zero, limit) = (eight(simd, 0.0), self.peaks.limit[g].load(simd));
         let attained = larger(a.abs(), b.abs());
         if (attained + slack).simd_le(limit).all_true() {
@@ -265,12 +264,18 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
 
     /// Keeps a candidate whose bounds stand in `above`; its start is `next` where the state has moved.
     #[inline(never)]
-    pub(super) fn keep(&mut self, sample: usize, extent: Extent, moved: bool) {
+    pub(super) fn keep<S: Simd, W: Width>(
+        &mut self,
+        how: How<S, W>,
+        sample: usize,
+        extent: Extent,
+        moved: bool,
+    ) {
         let capacity = CANDIDATES + self.peaks.outputs;
         if self.peaks.candidates.len() == capacity {
-            self.peaks.drop_overtaken(self.simd);
+            self.peaks.drop_overtaken(how.simd);
             if self.peaks.candidates.len() > capacity / 2 {
-                self.settle_peaks();
+                self.settle_peaks(how);
             }
         }
         let InForce { mode, tables, friction, stop, .. } = self.now;

@@ -14,7 +14,7 @@ use super::super::ground::{Normal, largest_size};
 use super::super::recorder::Knot;
 use super::super::tables::{Batch, PhaseTables};
 use super::peaks::Extent;
-use super::{Curvature, InForce, Modal};
+use super::{Curvature, How, InForce, Modal};
 use crate::linear::lanes::{Eight, Width, eight, greatest, least};
 use crate::linear::{BATCH, Force, QUIET, Window};
 use crate::progress::Pulse;
@@ -32,11 +32,12 @@ struct Coarse<S: Simd> {
     first: f64x8<S>,
 }
 
-impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
+impl<'a> Modal<'a> {
     /// Takes samples up to the end of the evenly spaced ones; the first that the bounds leave open.
     #[inline(always)]
-    pub(super) fn screened(
+    pub(super) fn screened<S: Simd, W: Width>(
         &mut self,
+        how: How<S, W>,
         (course, pulse): (&Course<'a>, &mut Pulse<'a>),
         sample: usize,
         end: usize,
@@ -49,9 +50,9 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
         match self.now.mode {
             Mode::Slip(_) if self.x[1] == 0.0 => sample,
             Mode::Slip(direction) => {
-                self.screen_slip((course, pulse), (tables, batch), [sample, end], direction)
+                self.screen_slip(how, (course, pulse), (tables, batch), [sample, end], direction)
             }
-            Mode::Stick => self.screen_stick((course, pulse), (tables, batch), [sample, end]),
+            Mode::Stick => self.screen_stick(how, (course, pulse), (tables, batch), [sample, end]),
         }
     }
 
@@ -63,14 +64,15 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
 
     /// Takes samples of sliding.
     #[inline(always)]
-    fn screen_slip(
+    fn screen_slip<S: Simd, W: Width>(
         &mut self,
+        how: How<S, W>,
         (course, pulse): (&Course<'a>, &mut Pulse<'a>),
         (phase, batch): (&'a PhaseTables, &'a Batch),
         [mut sample, end]: [usize; 2],
         direction: Direction,
     ) -> usize {
-        let (simd, sign, stride) = (self.simd, direction.sign(), 4 * self.width.fours());
+        let (simd, sign, stride) = (how.simd, direction.sign(), 4 * how.width.fours());
         let near = 0.125 * batch.dt_s * batch.dt_s;
         let far = (BATCH * BATCH) as f64 * near;
         let exits = self.exits;
@@ -90,7 +92,7 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
             let (a, force) = (self.window(sample), self.batch_force(coefficient, sample));
             batch.maps.after(simd, BATCH, &self.x[..stride], a, force, &mut self.next[..stride]);
             let (w, next_w) = (sign * self.x[1], sign * self.next[1]);
-            let curvature = self.curvature(phase, coefficient, sample, batch);
+            let curvature = self.curvature(how, phase, coefficient, sample, batch);
             let slack = curvature.slack_over_batch(simd, &phase.outputs.groups[0], far);
             let hidden = slack.as_array()[output::VELOCITY];
             let mut steps = BATCH;
@@ -130,8 +132,15 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
             let inputs = [[force.at(0), a[0], 0.0], [force.at(steps), a[steps], 0.0]];
             let reach = (steps * steps) as f64 * near;
             let group = (slack, None, reach);
-            self.look_over((phase, None), (sample, steps, curvature), inputs, group, &mut known);
-            self.record_batch(course, batch, sample, steps, a, force);
+            self.look_over(
+                how,
+                (phase, None),
+                (sample, steps, curvature),
+                inputs,
+                group,
+                &mut known,
+            );
+            self.record_batch(how, course, batch, sample, steps, a, force);
             sample += steps;
             core::mem::swap(&mut self.x, &mut self.next);
             if steps < BATCH {
@@ -143,13 +152,14 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
 
     /// Takes samples of stick.
     #[inline(always)]
-    fn screen_stick(
+    fn screen_stick<S: Simd, W: Width>(
         &mut self,
+        how: How<S, W>,
         (course, pulse): (&Course<'a>, &mut Pulse<'a>),
         (phase, batch): (&'a PhaseTables, &'a Batch),
         [mut sample, end]: [usize; 2],
     ) -> usize {
-        let (simd, stride) = (self.simd, 4 * self.width.fours());
+        let (simd, stride) = (how.simd, 4 * how.width.fours());
         let hold = self.hold;
         let stop = self.now.stop;
         let near = 0.125 * batch.dt_s * batch.dt_s;
@@ -164,39 +174,39 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
             }
             let a = self.window(sample);
             let normal = self.ground.normal.least(simd, sample);
-            let count = self.amplitude_count(phase);
+            let count = self.amplitude_count(how, phase);
             let amplitudes = &mut self.amplitudes[..count];
             phase.system.amplitudes(simd, &self.x[..stride], amplitudes);
             let holds = hold.least_n(normal) - hold.force_n.abs();
             let size = largest_size(simd, a);
-            let by_batch = self.coarse(phase, size, BATCH as f64 * batch.dt_s);
-            if self.is_quiet(phase, &by_batch, stop, holds) {
+            let by_batch = self.coarse(how, phase, size, BATCH as f64 * batch.dt_s);
+            if self.is_quiet(how, phase, &by_batch, stop, holds) {
                 known = 0;
                 let later = (1..QUIET / BATCH).map(|i| sample + i * BATCH);
                 if sample + QUIET <= end
                     && matches!(self.ground.normal, Normal::Constant(_))
                     && let size = later
                         .fold(size, |size, i| greatest(size, largest_size(simd, self.window(i))))
-                    && let coarse = self.coarse(phase, size, QUIET as f64 * batch.dt_s)
-                    && self.is_quiet(phase, &coarse, stop, holds)
+                    && let coarse = self.coarse(how, phase, size, QUIET as f64 * batch.dt_s)
+                    && self.is_quiet(how, phase, &coarse, stop, holds)
                 {
-                    self.take_quiet(course, batch, sample);
+                    self.take_quiet(how, course, batch, sample);
                     sample += QUIET;
                     continue;
                 }
                 let (x, next) = (&self.x[..stride], &mut self.next[..stride]);
                 batch.maps.after(simd, BATCH, x, a, force, next);
-                self.record_batch(course, batch, sample, BATCH, a, force);
+                self.record_batch(how, course, batch, sample, BATCH, a, force);
                 self.swap_in_stick();
                 sample += BATCH;
                 continue;
             }
             let (x, next) = (&self.x[..stride], &mut self.next[..stride]);
             batch.maps.after(simd, BATCH, x, a, force, next);
-            let curvature = self.curvature(phase, 0.0, sample, batch);
+            let curvature = self.curvature(how, phase, 0.0, sample, batch);
             let slack = curvature.slack_over_batch(simd, &phase.outputs.groups[0], far);
             let [before, after] = [[0.0, a[0], stop], [0.0, a[BATCH], stop]];
-            let y = self.outputs_known(phase, 0, before, &mut known);
+            let y = self.outputs_known(how, phase, 0, before, &mut known);
             let mut next_y = Self::group_at(simd, phase, 0, &self.next[..stride], after);
             let [first, last] = [y, next_y].map(|y| y.as_array()[output::FRICTION]);
             let hidden = slack.as_array()[output::FRICTION];
@@ -228,15 +238,16 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
                 next_y = Self::group_at(simd, phase, 0, next, after);
             }
             let group = (slack, Some(next_y), (steps * steps) as f64 * near);
-            let coarse = (self.width.modes() > 1).then_some(&by_batch);
+            let coarse = (how.width.modes() > 1).then_some(&by_batch);
             self.look_over(
+                how,
                 (phase, coarse),
                 (sample, steps, curvature),
                 [before, after],
                 group,
                 &mut known,
             );
-            self.record_batch(course, batch, sample, steps, a, force);
+            self.record_batch(how, course, batch, sample, steps, a, force);
             sample += steps;
             self.swap_in_stick();
             if steps < BATCH {
@@ -250,26 +261,27 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
     /// chord keeps them below their limits the samples are kept. Of the first group the slack over a whole
     /// batch is known and perhaps the outputs in `next`; `reach` is `h²/8` of all samples.
     #[inline(always)]
-    fn look_over(
+    fn look_over<S: Simd, W: Width>(
         &mut self,
+        how: How<S, W>,
         (phase, coarse): (&PhaseTables, Option<&Coarse<S>>),
         (sample, steps, curvature): (usize, usize, Curvature),
         [first, last]: [[f64; 3]; 2],
         (slack, first_group, reach): (f64x8<S>, Option<f64x8<S>>, f64),
         known: &mut u64,
     ) {
-        let (simd, stride) = (self.simd, 4 * self.width.fours());
+        let (simd, stride) = (how.simd, 4 * how.width.fours());
         let (mut open, mut known_next) = (false, 0);
-        for g in 0..self.groups(phase) {
+        for g in 0..self.groups(how, phase) {
             let most = coarse.map(|coarse| {
-                let reach = if g == 0 { coarse.first } else { self.reach(phase, g, coarse) };
-                self.most(phase, g, reach, first[2])
+                let reach = if g == 0 { coarse.first } else { self.reach(how, phase, g, coarse) };
+                self.most(how, phase, g, reach, first[2])
             });
             if most.is_some_and(|most| most.simd_le(self.peaks.limit[g].load(simd)).all_true()) {
                 self.peaks.above[g] = Eight::ZERO;
                 continue;
             }
-            let y = self.outputs_known(phase, g, first, known);
+            let y = self.outputs_known(how, phase, g, first, known);
             let next = match first_group {
                 Some(next) if g == 0 => next,
                 _ => Self::group_at(simd, phase, g, &self.next[..stride], last),
@@ -281,47 +293,60 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
             } else {
                 curvature.slack_over_batch(simd, &phase.outputs.groups[g], reach)
             };
-            open |= self.weigh(g, [y, next], slack, most);
+            open |= self.weigh(how, g, [y, next], slack, most);
         }
         *known = known_next;
         if open {
-            self.keep(sample, Extent::Samples(steps, curvature), false);
+            self.keep(how, sample, Extent::Samples(steps, curvature), false);
         }
     }
 
     /// Outputs of a group in `x`; `known` has a bit for each group whose outputs stand in `values`.
     #[inline(always)]
-    fn outputs_known(
+    fn outputs_known<S: Simd, W: Width>(
         &mut self,
+        how: How<S, W>,
         phase: &PhaseTables,
         g: usize,
         inputs: [f64; 3],
         known: &mut u64,
     ) -> f64x8<S> {
         if *known & (1 << g) == 0 {
-            let x = &self.x[..4 * self.width.fours()];
-            let y = Self::group_at(self.simd, phase, g, x, inputs);
+            let x = &self.x[..4 * how.width.fours()];
+            let y = Self::group_at(how.simd, phase, g, x, inputs);
             y.store_slice(&mut self.values[g].0);
             *known |= 1 << g;
             return y;
         }
-        self.values[g].load(self.simd)
+        self.values[g].load(how.simd)
     }
 
     /// Bounds under an acceleration of a size over a length of time.
     #[inline(always)]
-    fn coarse(&self, phase: &PhaseTables, size: f64, length_s: f64) -> Coarse<S> {
-        let first = eight(self.simd, 0.0);
+    fn coarse<S: Simd, W: Width>(
+        &self,
+        how: How<S, W>,
+        phase: &PhaseTables,
+        size: f64,
+        length_s: f64,
+    ) -> Coarse<S> {
+        let first = eight(how.simd, 0.0);
         let mut coarse = Coarse { impulse: length_s * size, size, first };
-        coarse.first = self.reach(phase, 0, &coarse);
+        coarse.first = self.reach(how, phase, 0, &coarse);
         coarse
     }
 
     /// Bound on what state and loads do to the outputs of a group over that time.
     #[inline(always)]
-    fn reach(&self, phase: &PhaseTables, g: usize, coarse: &Coarse<S>) -> f64x8<S> {
-        let (simd, group) = (self.simd, &phase.outputs.groups[g]);
-        let amplitudes = &self.amplitudes[..self.amplitude_count(phase)];
+    fn reach<S: Simd, W: Width>(
+        &self,
+        how: How<S, W>,
+        phase: &PhaseTables,
+        g: usize,
+        coarse: &Coarse<S>,
+    ) -> f64x8<S> {
+        let (simd, group) = (how.simd, &phase.outputs.groups[g]);
+        let amplitudes = &self.amplitudes[..self.amplitude_count(how, phase)];
         let reach = group.size_of_a.load(simd) * eight(simd, coarse.size)
             + group.of_impulse.load(simd) * eight(simd, coarse.impulse);
         reach + phase.outputs.of_amplitudes(simd, g, amplitudes)
@@ -329,14 +354,21 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
 
     /// Number of amplitudes that the outputs of a phase have factors of; those of one storey one.
     #[inline(always)]
-    fn amplitude_count(&self, phase: &PhaseTables) -> usize {
-        if self.width.modes() == 1 { 1 } else { phase.outputs.amplitude_count }
+    fn amplitude_count<S: Simd, W: Width>(&self, how: How<S, W>, phase: &PhaseTables) -> usize {
+        if how.width.modes() == 1 { 1 } else { phase.outputs.amplitude_count }
     }
 
     /// The same of the outputs themselves.
     #[inline(always)]
-    fn most(&self, phase: &PhaseTables, g: usize, reach: f64x8<S>, stop: f64) -> f64x8<S> {
-        let (simd, group) = (self.simd, &phase.outputs.groups[g]);
+    fn most<S: Simd, W: Width>(
+        &self,
+        how: How<S, W>,
+        phase: &PhaseTables,
+        g: usize,
+        reach: f64x8<S>,
+        stop: f64,
+    ) -> f64x8<S> {
+        let (simd, group) = (how.simd, &phase.outputs.groups[g]);
         let constant = (group.constant.load(simd) + group.of_stop.load(simd) * eight(simd, stop))
             + group.of_s.load(simd) * eight(simd, self.x[0]);
         reach + constant.abs()
@@ -344,14 +376,21 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
 
     /// Whether in stick the demand changes by no more than `holds`, and no output passes its limit.
     #[inline(always)]
-    fn is_quiet(&self, phase: &PhaseTables, coarse: &Coarse<S>, stop: f64, holds: f64) -> bool {
-        for g in 0..self.groups(phase) {
-            let reach = if g == 0 { coarse.first } else { self.reach(phase, g, coarse) };
+    fn is_quiet<S: Simd, W: Width>(
+        &self,
+        how: How<S, W>,
+        phase: &PhaseTables,
+        coarse: &Coarse<S>,
+        stop: f64,
+        holds: f64,
+    ) -> bool {
+        for g in 0..self.groups(how, phase) {
+            let reach = if g == 0 { coarse.first } else { self.reach(how, phase, g, coarse) };
             if g == 0 && !(reach.as_array()[output::FRICTION] <= holds) {
                 return false;
             }
-            let most = self.most(phase, g, reach, stop);
-            if !most.simd_le(self.peaks.limit[g].load(self.simd)).all_true() {
+            let most = self.most(how, phase, g, reach, stop);
+            if !most.simd_le(self.peaks.limit[g].load(how.simd)).all_true() {
                 return false;
             }
         }
@@ -367,30 +406,37 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
 
     /// Moves the state on over quiet stick.
     #[inline(always)]
-    fn take_quiet(&mut self, course: &Course<'a>, batch: &Batch, sample: usize) {
+    fn take_quiet<S: Simd, W: Width>(
+        &mut self,
+        how: How<S, W>,
+        course: &Course<'a>,
+        batch: &Batch,
+        sample: usize,
+    ) {
         if self.recorder.is_some() {
             let start = self.x.clone();
             for from in (sample..sample + QUIET).step_by(BATCH) {
                 let a = self.window(from);
                 let force = Force::Constant(0.0);
-                self.record_batch(course, batch, from, BATCH, a, force);
-                batch.maps.after(self.simd, BATCH, &self.x, a, force, &mut self.next);
+                self.record_batch(how, course, batch, from, BATCH, a, force);
+                batch.maps.after(how.simd, BATCH, &self.x, a, force, &mut self.next);
                 self.swap_in_stick();
             }
             self.x = start;
         }
         if let Some(a) = self.ground.acceleration[sample..].first_chunk() {
-            let stride = 4 * self.width.fours();
+            let stride = 4 * how.width.fours();
             let (x, next) = (&self.x[..stride], &mut self.next[..stride]);
-            batch.maps.after_quiet(self.simd, x, a, next);
+            batch.maps.after_quiet(how.simd, x, a, next);
             self.swap_in_stick();
         }
     }
 
     /// Records the samples of a batch as rows of the history, if one is wanted.
     #[inline(always)]
-    fn record_batch(
+    fn record_batch<S: Simd, W: Width>(
         &mut self,
+        how: How<S, W>,
         course: &Course<'a>,
         batch: &Batch,
         sample: usize,
@@ -403,12 +449,12 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
         let samples = sample..sample + steps;
         let (times_s, table) = (&self.ground.times_s[samples.clone()], &self.ground.table[samples]);
         recorder.store_samples([times_s, table], mode, contact);
-        let stride = 4 * self.width.fours();
+        let stride = 4 * how.width.fours();
         let mut x = core::mem::take(&mut recorder.state);
         x.clone_from(&self.x);
         for k in 0..steps {
             if k > 0 {
-                batch.maps.after(self.simd, k, &self.x[..stride], a, force, &mut x[..stride]);
+                batch.maps.after(how.simd, k, &self.x[..stride], a, force, &mut x[..stride]);
                 if mode == Mode::Stick {
                     (x[0], x[1]) = (self.x[0], 0.0);
                 }

@@ -7,7 +7,7 @@ use fearless_simd::prelude::*;
 use super::super::ground::Stretch;
 use super::super::phase::{Segment, fitting};
 use super::super::tables::PhaseTables;
-use super::{InForce, Modal};
+use super::{How, InForce, Modal};
 use crate::linear::lanes::{Width, least};
 use crate::linear::polynomial::{DEGREE, Polynomial};
 use crate::linear::{Load, Series};
@@ -38,7 +38,7 @@ impl Motion {
     }
 }
 
-impl<S: Simd, W: Width> Modal<'_, S, W> {
+impl Modal<'_> {
     /// The part of a stretch from a time on over which one series of so long goes.
     #[inline(always)]
     fn extent(unit_s: f64, stretch: &Stretch, from_s: f64) -> Segment {
@@ -54,14 +54,19 @@ impl<S: Simd, W: Width> Modal<'_, S, W> {
 
     /// Expands the motion from a time of a stretch.
     #[inline(always)]
-    pub(super) fn expand_motion(&mut self, stretch: &Stretch, from_s: f64) {
+    pub(super) fn expand_motion<S: Simd, W: Width>(
+        &mut self,
+        how: How<S, W>,
+        stretch: &Stretch,
+        from_s: f64,
+    ) {
         let InForce { mode, tables, stop, fading, .. } = self.now;
-        let (simd, stride) = (self.simd, 4 * self.width.fours());
+        let (simd, stride) = (how.simd, 4 * how.width.fours());
         let phase = tables.get();
         if let Some(fading) = fading {
-            self.motion.segment = self.expand_fading(&fading, stretch, from_s);
+            self.motion.segment = self.expand_fading(how, &fading, stretch, from_s);
             self.motion.load = self.load(stretch, &self.motion.segment);
-            self.motion.number = self.series.component(self.width, 1);
+            self.motion.number = self.series.component(how.width, 1);
         } else {
             self.motion.segment = Self::extent(phase.unit_s, stretch, from_s);
             self.motion.load = self.load(stretch, &self.motion.segment);
@@ -93,9 +98,15 @@ impl<S: Simd, W: Width> Modal<'_, S, W> {
     /// Expands the motion under friction that fades with the speed, over as much of a stretch as one
     /// series takes.
     #[inline(never)]
-    fn expand_fading(&mut self, fading: &Fading, stretch: &Stretch, from_s: f64) -> Segment {
+    fn expand_fading<S: Simd, W: Width>(
+        &mut self,
+        how: How<S, W>,
+        fading: &Fading,
+        stretch: &Stretch,
+        from_s: f64,
+    ) -> Segment {
         let InForce { tables, friction, stop, .. } = self.now;
-        let stride = 4 * self.width.fours();
+        let stride = 4 * how.width.fours();
         let phase = tables.get();
         // At the end of a stretch any length serves.
         let left_s = if from_s < stretch.to_s { stretch.to_s - from_s } else { phase.unit_s };
@@ -103,7 +114,7 @@ impl<S: Simd, W: Width> Modal<'_, S, W> {
             let mut load = stretch.load(from_s, unit_s, friction);
             load.force -= stop;
             let (x, fading) = (&self.x[..stride], [fading.force_n, fading.rate_s_per_m]);
-            self.series.expand_fading(self.width, &phase.system, x, &load, unit_s, fading)
+            self.series.expand_fading(how.width, &phase.system, x, &load, unit_s, fading)
         });
         let whole = part == 1.0 && unit_s == left_s;
         let to_s = if whole { stretch.to_s } else { least(from_s + part * unit_s, stretch.to_s) };
@@ -112,16 +123,16 @@ impl<S: Simd, W: Width> Modal<'_, S, W> {
 
     /// Moves the state to a part of what was expanded last.
     #[inline(always)]
-    pub(super) fn move_motion(&mut self, part: f64) {
+    pub(super) fn move_motion<S: Simd, W: Width>(&mut self, how: How<S, W>, part: f64) {
         swap(&mut self.x, &mut self.next);
-        let stride = 4 * self.width.fours();
+        let stride = 4 * how.width.fours();
         let (from, to) = (&self.next[..stride], &mut self.x[..stride]);
         if self.now.fading.is_some() {
-            self.series.state_at(self.simd, part, to);
+            self.series.state_at(how.simd, part, to);
             return;
         }
         let (phase, start) = (self.now.tables.get(), (from, &self.motion.load));
-        phase.solution.state_at(self.simd, &phase.system, start, part, &mut self.series, to);
+        phase.solution.state_at(how.simd, &phase.system, start, part, &mut self.series, to);
     }
 }
 
@@ -129,7 +140,7 @@ impl<S: Simd, W: Width> Modal<'_, S, W> {
 /// stop but what `stop` says in the output's own way.
 #[inline(always)]
 pub(super) fn output_series<S: Simd, W: Width>(
-    (simd, width): (S, W),
+    How { simd, width }: How<S, W>,
     phase: &PhaseTables,
     j: usize,
     series: &Series,

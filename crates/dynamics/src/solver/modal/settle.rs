@@ -15,7 +15,7 @@ use super::super::phase::Segment;
 use super::super::tables::{Batch, PhaseTables};
 use super::peaks::{Candidate, Extent};
 use super::series::output_series;
-use super::{Curvature, Modal};
+use super::{Curvature, How, Modal};
 use crate::linear::lanes::{Width, eight, greatest, larger};
 use crate::linear::{BATCH, Force, Load, Window};
 use crate::response::Mode;
@@ -112,29 +112,29 @@ impl Scratch {
     }
 }
 
-impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
+impl<'a> Modal<'a> {
     /// Settles all candidates that are still in question.
     #[inline(never)]
-    pub(super) fn settle_peaks(&mut self) {
-        let simd = self.simd;
+    pub(super) fn settle_peaks<S: Simd, W: Width>(&mut self, how: How<S, W>) {
+        let simd = how.simd;
         simd.vectorize(
             #[inline(always)]
             || {
                 for i in 0..self.peaks.candidates.len() {
                     if self.peaks.in_question(simd, i) {
-                        self.look_at_samples(i);
+                        self.look_at_samples(how, i);
                     }
                 }
                 self.peaks.scratch.find_highest(self.peaks.outputs);
                 for only_highest in [true, false] {
-                    self.settle_places(only_highest);
+                    self.settle_places(how, only_highest);
                 }
                 self.peaks.scratch.places.clear();
                 for i in 0..self.peaks.candidates.len() {
                     if let Extent::Segment(segment) = self.peaks.candidates[i].extent
                         && self.peaks.in_question(simd, i)
                     {
-                        self.settle_segment(i, &segment);
+                        self.settle_segment(how, i, &segment);
                     }
                 }
                 self.peaks.forget_from(0);
@@ -146,8 +146,8 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
     /// Looks at the outputs of a candidate at its samples as far as it must, and keeps the samples that may
     /// hold a peak.
     #[inline(always)]
-    fn look_at_samples(&mut self, i: usize) {
-        let simd = self.simd;
+    fn look_at_samples<S: Simd, W: Width>(&mut self, how: How<S, W>, i: usize) {
+        let simd = how.simd;
         let Candidate { sample, extent, phase, stop, .. } = self.peaks.candidates[i];
         let phase = self.tables.phase(phase);
         let (Extent::Samples(count, curvature), Some(batch)) = (extent, phase.batch()) else {
@@ -155,9 +155,9 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
         };
         let Some(a) = self.ground.acceleration[sample..].first_chunk() else { return };
         let force = self.candidate_force(i);
-        let (groups, stride) = (self.peaks.peak.len(), 4 * self.width.fours());
+        let (groups, stride) = (self.peaks.peak.len(), 4 * how.width.fours());
         let near = 0.125 * batch.dt_s * batch.dt_s;
-        let by_mode = self.width.modes() > 1 && phase.system.has_modes(phase.slip);
+        let by_mode = how.width.modes() > 1 && phase.system.has_modes(phase.slip);
         let samples = Samples { phase, batch, a, force, stop, count, curvature, near, by_mode };
         let start = &self.peaks.states[i * stride..][..stride];
         self.peaks.scratch.states[..stride].copy_from_slice(start);
@@ -171,14 +171,20 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
         }
         let mut known = 1;
         for g in 0..groups {
-            self.look_at_group((i, g), &samples, &mut known);
+            self.look_at_group(how, (i, g), &samples, &mut known);
         }
     }
 
     /// The same of one group.
     #[inline(always)]
-    fn look_at_group(&mut self, (i, g): (usize, usize), samples: &Samples<'_>, known: &mut u32) {
-        let (simd, stride, at) = (self.simd, 4 * self.width.fours(), i * self.peaks.peak.len() + g);
+    fn look_at_group<S: Simd, W: Width>(
+        &mut self,
+        how: How<S, W>,
+        (i, g): (usize, usize),
+        samples: &Samples<'_>,
+        known: &mut u32,
+    ) {
+        let (simd, stride, at) = (how.simd, 4 * how.width.fours(), i * self.peaks.peak.len() + g);
         let whole = self.peaks.bounds[at].load(simd);
         let mut peak = self.peaks.peak[g].load(simd);
         let asked = whole.simd_gt(peak);
@@ -209,7 +215,7 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
                     continue;
                 }
                 if to == from + 1 {
-                    let own = self.sample_slack(samples, g, from);
+                    let own = self.sample_slack(how, samples, g, from);
                     slack = own.simd_lt(slack).select(own, slack);
                 } else if by_mode {
                     // The shortest of the chords that is as long.
@@ -257,8 +263,14 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
 
     /// How far outputs of a group depart from the chord over the sample from the `k`-th, whose state is known.
     #[inline(always)]
-    fn sample_slack(&mut self, samples: &Samples<'_>, g: usize, k: usize) -> f64x8<S> {
-        let (simd, stride) = (self.simd, 4 * self.width.fours());
+    fn sample_slack<S: Simd, W: Width>(
+        &mut self,
+        how: How<S, W>,
+        samples: &Samples<'_>,
+        g: usize,
+        k: usize,
+    ) -> f64x8<S> {
+        let (simd, stride) = (how.simd, 4 * how.width.fours());
         let Samples { phase, batch, a, force, near, by_mode, .. } = *samples;
         let (system, scratch) = (&phase.system, &mut self.peaks.scratch);
         let x = &scratch.states[k * stride..][..stride];
@@ -270,7 +282,6 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
             return phase.outputs.of_amplitudes(simd, g, departures);
         }
         let force = [force.at(k), (force.at(k + 1) - force.at(k)) * batch.per_dt];
-        let how = (simd, self.width);
         let [_, second] = Self::derivative_norms(how, phase, x, [load, force], &mut self.scratch);
         phase.outputs.groups[g].norm.load(simd) * eight(simd, second * batch.growth * near)
     }
@@ -287,7 +298,7 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
 
     /// Settles the samples that may hold a peak, or the highest of each output alone.
     #[inline(always)]
-    fn settle_places(&mut self, only_highest: bool) {
+    fn settle_places<S: Simd, W: Width>(&mut self, how: How<S, W>, only_highest: bool) {
         let mut from = 0;
         while from < self.peaks.scratch.places.len() {
             let i = self.peaks.scratch.places[from].candidate;
@@ -297,7 +308,7 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
             }
             for k in 0..BATCH {
                 if (from..to).any(|at| self.is_due(at, k, only_highest)) {
-                    self.settle_sample((i, k), from..to, only_highest);
+                    self.settle_sample(how, (i, k), from..to, only_highest);
                 }
             }
             from = to;
@@ -316,7 +327,14 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
 
     /// State at a sample of a candidate.
     #[inline(always)]
-    fn state_of(&self, i: usize, k: usize, batch: &Batch, x: &mut [f64]) {
+    fn state_of<S: Simd, W: Width>(
+        &self,
+        how: How<S, W>,
+        i: usize,
+        k: usize,
+        batch: &Batch,
+        x: &mut [f64],
+    ) {
         let start = &self.peaks.states[i * x.len()..][..x.len()];
         let Some(a) = self.ground.acceleration[self.peaks.candidates[i].sample..].first_chunk()
         else {
@@ -325,25 +343,31 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
         if k == 0 {
             x.copy_from_slice(start);
         } else {
-            batch.maps.after(self.simd, k, start, a, self.candidate_force(i), x);
+            batch.maps.after(how.simd, k, start, a, self.candidate_force(i), x);
         }
     }
 
     /// Settles those places of a candidate's `k`-th sample that are due, by as many series as a step has.
     #[inline(always)]
-    fn settle_sample(&mut self, (i, k): (usize, usize), places: Range<usize>, only_highest: bool) {
+    fn settle_sample<S: Simd, W: Width>(
+        &mut self,
+        how: How<S, W>,
+        (i, k): (usize, usize),
+        places: Range<usize>,
+        only_highest: bool,
+    ) {
         let Candidate { sample, mode, phase, stop, .. } = self.peaks.candidates[i];
         let phase = self.tables.phase(phase);
         let Some(batch) = phase.batch() else { return };
         let mut x = core::mem::take(&mut self.peaks.scratch.x);
-        self.state_of(i, k, batch, &mut x);
+        self.state_of(how, i, k, batch, &mut x);
         let stretch = self.ground.stretch(sample + k, 0.0, batch.dt_s);
         let units = (batch.dt_s / phase.unit_s).round().max(1.0) as usize;
         for unit in 0..units {
             let from_s = unit as f64 * phase.unit_s;
             let unit_s = phase.unit_s;
             let segment = Segment { from_s, to_s: from_s + unit_s, unit_s, part: 1.0 };
-            let load = self.expand_candidate(i, phase, (&stretch, &segment), &x);
+            let load = self.expand_candidate(how, i, phase, (&stretch, &segment), &x);
             for at in places.clone() {
                 if self.is_due(at, k, only_highest) {
                     let place = &mut self.peaks.scratch.places[at];
@@ -351,14 +375,13 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
                     if unit + 1 == units {
                         place.bound = 0.0;
                     }
-                    let p =
-                        output_series((self.simd, self.width), phase, j, &self.series, &load, stop);
+                    let p = output_series(how, phase, j, &self.series, &load, stop);
                     self.peaks.raise(j, &p, segment.part);
                 }
             }
             if unit + 1 < units {
                 let s = x[0];
-                self.series.state_at(self.simd, 1.0, &mut x);
+                self.series.state_at(how.simd, 1.0, &mut x);
                 if mode == Mode::Stick {
                     x[0] = s;
                 }
@@ -369,17 +392,17 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
 
     /// Settles a candidate that is one segment by its series.
     #[inline(always)]
-    fn settle_segment(&mut self, i: usize, segment: &Segment) {
+    fn settle_segment<S: Simd, W: Width>(&mut self, how: How<S, W>, i: usize, segment: &Segment) {
         let Candidate { sample, phase, stop, .. } = self.peaks.candidates[i];
         let phase = self.tables.phase(phase);
         let mut x = core::mem::take(&mut self.peaks.scratch.x);
         let stride = x.len();
         x.copy_from_slice(&self.peaks.states[i * stride..][..stride]);
         let stretch = self.ground.stretch(sample, segment.from_s, segment.to_s);
-        let load = self.expand_candidate(i, phase, (&stretch, segment), &x);
+        let load = self.expand_candidate(how, i, phase, (&stretch, segment), &x);
         for j in 0..self.peaks.outputs {
             if self.peaks.asks(i, j) {
-                let p = output_series((self.simd, self.width), phase, j, &self.series, &load, stop);
+                let p = output_series(how, phase, j, &self.series, &load, stop);
                 self.peaks.raise(j, &p, segment.part);
             }
         }
@@ -388,8 +411,9 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
 
     /// Expands a candidate's motion from `x` over one segment; its load, as the outputs take it.
     #[inline(always)]
-    fn expand_candidate(
+    fn expand_candidate<S: Simd, W: Width>(
         &mut self,
+        how: How<S, W>,
         i: usize,
         phase: &PhaseTables,
         (stretch, segment): (&Stretch, &Segment),
@@ -401,7 +425,7 @@ impl<'a, S: Simd, W: Width> Modal<'a, S, W> {
         if mode != Mode::Stick {
             with_stop.force -= stop;
         }
-        phase.solution.expand(self.simd, &phase.system, x, &with_stop, &mut self.series);
+        phase.solution.expand(how.simd, &phase.system, x, &with_stop, &mut self.series);
         load
     }
 }
