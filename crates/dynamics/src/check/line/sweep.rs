@@ -211,8 +211,9 @@ impl LaneJudge<'_> {
         Ok(())
     }
 
-    /// Judges eight even intervals.
-    #[inline(always)]
+    /// Judges eight even intervals: a function of its own, or every place that calls it would be compiled with all
+    /// of it inside.
+    #[inline(never)]
     fn eight<S: Simd>(
         &self,
         simd: S,
@@ -224,8 +225,14 @@ impl LaneJudge<'_> {
         pass.pulse.beat(8 * self.structure.degrees() as u32)?;
         // One storey gets loops of its own.
         let bits = match self.structure.masses_kg.len() {
-            1 => self.eight_of(simd, 1, (common, spread), lanes, floors, pass),
-            n => self.eight_of(simd, n, (common, spread), lanes, floors, pass),
+            1 => simd.vectorize(
+                #[inline(always)]
+                || self.eight_of(simd, 1, (common, spread), lanes, floors, pass),
+            ),
+            n => simd.vectorize(
+                #[inline(always)]
+                || self.eight_of(simd, n, (common, spread), lanes, floors, pass),
+            ),
         };
         let lanes = (0..lanes.group.count).zip(lanes.group.knots);
         if bits != 0 {
