@@ -142,7 +142,7 @@ impl Contents {
 /// A checked model: block, slider, structure, gravity and initial state.
 ///
 /// [`Model::builder`] takes quantities with units, [`Model::new`] numbers in SI, and
-/// [`input::parse`](crate::input::parse) the text of a model file.
+/// `slipstick::input::parse` the text of a model file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     block: Block,
