@@ -178,7 +178,7 @@ pub enum Build {
 /// # Errors
 /// What does not build; that the target cannot be added.
 pub fn build_for_tests(golden: &str) -> Outcome {
-    let packages = MODULES.map(|m| format!("--package {m}")).join(" ");
+    let packages = modules();
     let build = format!(
         "build --quiet --lib --example golden --package slipstick --package slipstick-report {packages} \
          --target {WASM}"
@@ -196,8 +196,7 @@ pub fn build(how: Build) -> Result<PathBuf, String> {
     let profile = match how {
         Build::Tested => "debug",
         Build::Page => {
-            let packages = MODULES.map(|m| format!("--package {m}")).join(" ");
-            let build = format!("build {packages} --profile page --target {WASM}");
+            let build = format!("build {} --profile page --target {WASM}", modules());
             shell::run(&mut shell::cargo(&build))?;
             "page"
         }
@@ -215,6 +214,11 @@ pub fn build(how: Build) -> Result<PathBuf, String> {
     put_together.arg(page.join("build.mjs")).arg(&folder).arg(shell::root().join(WIDGET));
     shell::run(&mut put_together)?;
     Ok(folder)
+}
+
+/// The page's modules, as cargo is asked for them.
+fn modules() -> String {
+    MODULES.map(|module| format!("--package {module}")).join(" ")
 }
 
 /// Adds the target for WebAssembly where it is missing.
