@@ -7,6 +7,7 @@
 
 pub(crate) mod cases;
 mod columns;
+mod demanded;
 mod design;
 pub mod engine;
 pub(crate) mod notices;
@@ -16,6 +17,8 @@ pub mod summary;
 mod verify;
 
 pub use cases::{Case, CaseRun, Cases, FailedRun};
+pub(crate) use demanded::SLIDING;
+pub use demanded::{Demanded, TRAVEL_USED_UP, travel_used_up};
 pub use design::Design;
 pub use records::Record;
 pub use rows::Row;

@@ -94,8 +94,12 @@ pub fn condensed<'a>(of: impl IntoIterator<Item = (&'a str, &'a [Notice])>) -> V
     for (name, notices) in of {
         for notice in notices {
             match noticed.iter_mut().find(|(seen, _)| seen.kind == notice.kind) {
-                Some((_, names)) if names.contains(&name) => {}
-                Some((_, names)) => names.push(name),
+                Some((seen, names)) => {
+                    *seen = seen.clone().severe_where(notice.is_severe);
+                    if !names.contains(&name) {
+                        names.push(name);
+                    }
+                }
                 None => {
                     let message = format!("{name}: {}", notice.message);
                     noticed.push((Notice { message, time_s: None, ..notice.clone() }, vec![name]));

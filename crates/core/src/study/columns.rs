@@ -1,6 +1,7 @@
 //! The columns of a study's table.
 
 use super::cases::status;
+use super::demanded::TRAVEL_USED_UP;
 use super::{Row, Study};
 use crate::response::{DemandColumn, DemandKind, InDirections, Response, demand_values};
 use crate::table::{Cells, Column, Field, Kind, Table};
@@ -72,6 +73,8 @@ impl Study {
             kind: column.demand.kind.into(),
             ..Field::number(format!("{axis}{}", column.name()), column.unit())
         }));
+        let travels = self.shape.surfaces > 0;
+        fields.extend(travels.then(|| Field::number(TRAVEL_USED_UP, "m")));
         fields.extend([Field::text("warnings"), Field::text("status")]);
         fields
     }
@@ -83,6 +86,12 @@ impl Study {
             + self.measures.len()
             + usize::from(self.has_bounds())
             + self.design.vary().len()
+    }
+
+    /// Index of the column of travels that runs have used up, where the model has surfaces in series.
+    #[must_use]
+    pub fn travel_used_up(&self) -> Option<usize> {
+        (self.shape.surfaces > 0).then(|| self.first_demand() + self.demand_columns().len())
     }
 
     /// Rows as the cells of [`Study::fields`].
@@ -113,6 +122,9 @@ impl Study {
         cells.extend(self.demand_columns().iter().enumerate().map(|(i, (_, column))| {
             Cells::of_numbers(column.demand.kind.into(), rows.iter().map(|row| of(&row.demands, i)))
         }));
+        if self.shape.surfaces > 0 {
+            cells.push(numbers(&|row| row.travel_used_up_m().unwrap_or(f64::NAN)));
+        }
         cells.push(texts(&Row::kinds));
         cells.push(texts(&|row| status(row.error.as_ref())));
         cells

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::cases::{Case, CaseRun, Cases, Runs};
+use super::cases::{Case, CaseRun, Cases, Noticed, Runs};
 use super::engine::Engine;
 use super::notices::{coarse_sampling, longest_step_s};
 use super::{Sample, Study, chunks};
@@ -39,6 +39,12 @@ pub struct Row {
 }
 
 impl Row {
+    /// The travel in m that the run has used up; none where it has an answer, or lacks one for another reason.
+    #[must_use]
+    pub fn travel_used_up_m(&self) -> Option<f64> {
+        self.error.as_ref().and_then(RunError::travel_used_up_m)
+    }
+
     /// The names of its kinds of warnings, joined by `;`.
     #[must_use]
     pub fn kinds(&self) -> String {
@@ -131,7 +137,7 @@ impl Study {
             Ok((demands, of_demands)) => {
                 let step_s = known.map_or(0.0, |known| known.longest_step_s);
                 let before = self.noticed(case, &sample.suspicious, sample.highest_hz, step_s);
-                (demands, warnings([before, of_demands, noticed]), None)
+                (demands, warnings([before, of_demands, Noticed::kinds(&noticed)]), None)
             }
             Err(error) => (vec![f64::NAN; self.demand_columns().len()], Vec::new(), Some(error)),
         };
