@@ -286,13 +286,7 @@ impl Suite {
     /// records whose files say so. Their demands are not independent.
     #[must_use]
     pub fn clusters(&self) -> Vec<usize> {
-        let records = &self.records;
-        let together = |a: &Record, b: &Record| match (a.pair, b.pair) {
-            (Some(a), Some(b)) => a == b,
-            _ => a.origin.is_with(&b.origin),
-        };
-        let first = |i: usize| (0..i).find(|&j| together(&records[j], &records[i])).unwrap_or(i);
-        (0..records.len()).map(first).collect()
+        records::clusters(&self.records)
     }
 
     /// The name of a record's pair, that of its first component; empty where it is in none.

@@ -64,7 +64,7 @@ impl Study {
             Field::number("level", self.level_unit()),
             Field::number("scale", "").required(),
         ];
-        fields.extend(self.has_pairs().then(|| Field::text("pair")));
+        fields.extend(self.has_clusters().then(|| Field::text("pair")));
         fields.extend(self.measures.iter().map(|m| Field::number(m.column(), m.unit())));
         fields.extend(self.has_bounds().then(|| Field::text("friction")));
         let varied = self.design.vary().iter();
@@ -82,7 +82,7 @@ impl Study {
     /// Index of the first demand among [`Study::fields`].
     #[must_use]
     pub fn first_demand(&self) -> usize {
-        5 + usize::from(self.has_pairs())
+        5 + usize::from(self.has_clusters())
             + self.measures.len()
             + usize::from(self.has_bounds())
             + self.design.vary().len()
@@ -109,8 +109,8 @@ impl Study {
             numbers(&|row| self.level(row.case.level).unwrap_or(f64::NAN)),
             numbers(&|row| row.case.scale),
         ];
-        if self.has_pairs() {
-            let pair = |row: &Row| record(row).map_or("", |r| self.pair_name(r)).to_owned();
+        if self.has_clusters() {
+            let pair = |row: &Row| self.cluster_name(row.case.record).to_owned();
             cells.push(texts(&pair));
         }
         cells.extend((0..self.measures.len()).map(|i| numbers(&|row| of(&row.measures, i))));

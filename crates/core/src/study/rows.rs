@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::cases::{Case, CaseRun, Cases, Noticed, Runs};
 use super::engine::Engine;
-use super::notices::{coarse_sampling, longest_step_s};
+use super::notices::{USUAL_FACTORS, coarse_sampling, longest_step_s};
 use super::{Sample, Study, chunks};
 use crate::error::{RunError, Stopped};
 use crate::motion::GroundMotion;
@@ -154,10 +154,12 @@ impl Study {
         longest_step_s: f64,
     ) -> Vec<NoticeKind> {
         let of_record = self.records.get(case.record).map(|record| &record.notices);
+        let is_far = of_record.is_some() && !USUAL_FACTORS.contains(&case.scale.abs());
+        let far = is_far.then_some(NoticeKind::FactorFar);
         let of_model = coarse_sampling(highest_hz, longest_step_s);
         let of_model = of_model.into_iter().map(|warning| warning.kind);
         let of_record = of_record.into_iter().flatten().map(|notice| notice.kind);
-        of_record.chain(suspicious.iter().copied()).chain(of_model).collect()
+        of_record.chain(far).chain(suspicious.iter().copied()).chain(of_model).collect()
     }
 
     /// The measures of a record at a level, or of the motion that a model makes. Spectra are taken once a

@@ -11,6 +11,7 @@ use slipstick::assessment::suite::{Recorded, condensed};
 use slipstick::input::Bound;
 use slipstick::notice::{Notice, NoticeKind};
 use slipstick::response::{DemandColumn, DemandOf};
+use slipstick::study::USUAL_FACTORS;
 use slipstick::table::{self, Cells, Column};
 
 use super::pairs;
@@ -39,9 +40,6 @@ pub struct HistoriesReport<'a> {
 /// A column of a table: its head, the model, its demand and the bound of friction; none where no record of
 /// the model has the demand.
 type Shown<'a> = (String, Option<(&'a ModelHistories, DemandColumn, usize)>);
-
-/// Factors on records beyond which it is said: FEMA P-1050 and the guidance on ground motions to ASCE/SEI 7.
-const FACTORS: core::ops::RangeInclusive<f64> = 0.25..=4.0;
 
 /// Demands that have a table, of those that there are; the last one of models with storeys alone.
 const SHOWN: [&str; 5] = [
@@ -354,7 +352,7 @@ impl HistoriesReport<'_> {
     /// Factors that no longer make another earthquake of a record.
     fn far_factors(&self) -> Option<Notice> {
         let records = &self.histories.models.first()?.records;
-        let far = |on: &&OnRecord| !FACTORS.contains(&on.scale.abs());
+        let far = |on: &&OnRecord| !USUAL_FACTORS.contains(&on.scale.abs());
         let count = records.iter().filter(far).count();
         let distance = |on: &OnRecord| libm::log(on.scale.abs()).abs();
         let farthest =
@@ -363,8 +361,8 @@ impl HistoriesReport<'_> {
             "{count} of {} factors are outside {} to {}, {} × {} farthest: records so much weaker or \
              stronger have other durations and frequencies than the motion that is meant",
             records.len(),
-            FACTORS.start(),
-            FACTORS.end(),
+            USUAL_FACTORS.start(),
+            USUAL_FACTORS.end(),
             farthest.record,
             cell(farthest.scale)
         );
