@@ -383,6 +383,24 @@ pub enum FitError {
     NoMaximum,
 }
 
+impl FitError {
+    /// The same with its intensities in a unit that is so much in theirs.
+    #[must_use]
+    pub fn with_intensities_over(self, in_si: f64) -> Self {
+        match self {
+            Self::NoneExceeds { runs, highest } => {
+                Self::NoneExceeds { runs, highest: highest / in_si }
+            }
+            Self::AllExceed { runs, lowest } => Self::AllExceed { runs, lowest: lowest / in_si },
+            Self::Separated { below, above } => {
+                Self::Separated { below: below / in_si, above: above / in_si }
+            }
+            Self::OneLevel { level } => Self::OneLevel { level: level / in_si },
+            other => other,
+        }
+    }
+}
+
 /// Bytes that are not a record: of text in the `file:line:column` form an editor can jump to, of a
 /// binary file with the offset of the first offending byte.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

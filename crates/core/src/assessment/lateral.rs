@@ -329,10 +329,7 @@ mod tests {
         for (ends, what) in [
             ("gap = \"100 mm\"\n", Some("gap")),
             ("gap = \"2 m\"\n", None),
-            (
-                "[slider.stop]\ngap = \"90 mm\"\nkind = \"rigid\"\nrestitution = 0.5\n",
-                Some("gap to the stop"),
-            ),
+            ("[slider.stop]\ngap = \"90 mm\"\nrestitution = 0.5\n", Some("gap to the stop")),
         ] {
             let found = LateralForce::of(&model(&format!("{base}{ends}")), &SPECTRUM).unwrap();
             assert_eq!(found.passes.map(|(what, _)| what), what);

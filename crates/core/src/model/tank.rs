@@ -160,8 +160,8 @@ mod tests {
             let tank = LiquidTank::new(10.0, depth_m, 1.0).expect("a tank");
             let y = 1.841_183_781_340_659_3 * depth_m / 10.0;
             let height = depth_m * (1.0 - (libm::cosh(y) - 2.0) / (y * libm::sinh(y)));
-            // Housner's constants 3.68 and 2.01 for 3.6824 and 2.
-            assert!((tank.convective_height_m / height - 1.0).abs() < 0.01);
+            // Housner's constants 3.68 and 2.01 for 3.6824 and 2: in a shallow tank 0.01/0.93 of the height.
+            assert!((tank.convective_height_m / height - 1.0).abs() < 0.015);
         }
     }
 
