@@ -211,6 +211,8 @@ pub enum SolveError {
     EndOfTravel {
         /// When, in s.
         time_s: f64,
+        /// The travel of all of them together, in m: the sliding displacement then, to either side.
+        travel_m: f64,
     },
     /// A model that a method does not take.
     #[error("{method}: expected a model without {what}")]
@@ -258,6 +260,17 @@ pub enum RunError {
     /// The analysis itself.
     #[error(transparent)]
     Solve(#[from] SolveError),
+}
+
+impl RunError {
+    /// The sliding displacement in m that the run reached, where it ended because its travel was used up.
+    #[must_use]
+    pub fn travel_used_up_m(&self) -> Option<f64> {
+        match self {
+            Self::Solve(SolveError::EndOfTravel { travel_m, .. }) => Some(*travel_m),
+            _ => None,
+        }
+    }
 }
 
 /// What ended because the callback that followed it said so.
@@ -368,6 +381,24 @@ pub enum FitError {
          exactly to tell all parameters"
     )]
     NoMaximum,
+}
+
+impl FitError {
+    /// The same with its intensities in a unit that is so much in theirs.
+    #[must_use]
+    pub fn with_intensities_over(self, in_si: f64) -> Self {
+        match self {
+            Self::NoneExceeds { runs, highest } => {
+                Self::NoneExceeds { runs, highest: highest / in_si }
+            }
+            Self::AllExceed { runs, lowest } => Self::AllExceed { runs, lowest: lowest / in_si },
+            Self::Separated { below, above } => {
+                Self::Separated { below: below / in_si, above: above / in_si }
+            }
+            Self::OneLevel { level } => Self::OneLevel { level: level / in_si },
+            other => other,
+        }
+    }
 }
 
 /// Bytes that are not a record: of text in the `file:line:column` form an editor can jump to, of a

@@ -174,6 +174,12 @@ kinds! {
     TravelReached "travel_reached" Warning,
 
     // Many runs, and what is fitted to them.
+    /// Rules of a code are used on a target spectrum that may be another's.
+    CodeAssumed "code_assumed" Warning,
+    /// Property modification factors are milder than those of the code.
+    MildFactors "mild_factors" Warning,
+    /// The displacement of the equivalent-lateral-force procedure is beyond the travel or the gap.
+    LateralBeyondTravel "lateral_beyond_travel" Severe,
     /// A chosen value lies at an end of its range.
     EdgeOfRange "edge_of_range" Warning,
     /// Some draws of a bootstrap have no fit.
@@ -253,13 +259,15 @@ pub struct Notice {
     pub time_s: Option<f64>,
     /// One sentence.
     pub message: String,
+    /// Whether it is severe, however much its kind weighs.
+    pub is_severe: bool,
 }
 
 impl Notice {
     /// A notice of no one time.
     #[must_use]
     pub fn new(kind: NoticeKind, message: impl Into<String>) -> Self {
-        Self { kind, time_s: None, message: message.into() }
+        Self { kind, time_s: None, message: message.into(), is_severe: false }
     }
 
     /// The same at a time.
@@ -268,10 +276,16 @@ impl Notice {
         Self { time_s: Some(time_s), ..self }
     }
 
+    /// The same as a severe one, where that holds.
+    #[must_use]
+    pub fn severe_where(self, is_severe: bool) -> Self {
+        Self { is_severe: self.is_severe || is_severe, ..self }
+    }
+
     /// How much it weighs.
     #[must_use]
     pub const fn severity(&self) -> Severity {
-        self.kind.severity()
+        if self.is_severe { Severity::Severe } else { self.kind.severity() }
     }
 
     /// Whether it says how something was read and changes no decision.

@@ -739,7 +739,7 @@ impl Motion {
         let warning = |(name, time_s, message): (String, Option<f64>, String)| {
             let kind = NoticeKind::from_name(&name)
                 .ok_or_else(|| of_argument(py, "warnings", "a known kind of warning", &name))?;
-            Ok(Notice { kind, time_s, message })
+            Ok(Notice { time_s, ..Notice::new(kind, message) })
         };
         let warnings = warnings.into_iter().map(warning).collect::<PyResult<_>>()?;
         let (factor, along_x, along_y) = origin;

@@ -461,6 +461,7 @@ where
                 .books
                 .error(jolt_j, |k| unsure(&self.h.time_s, self.instant_s, k)),
             demands_error: demands.worst,
+            demand_in_error: demands.worst_of(),
             closest_call: self.closest,
             bound,
             books: self.books,

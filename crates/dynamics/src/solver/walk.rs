@@ -231,7 +231,8 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
     fn note_ends(&mut self, time_s: f64) -> Result<(), SolveError> {
         self.course.slider.note_surfaces(self.phase.place(0)[0]);
         if self.course.block.mode != Mode::Stick && self.course.slider.at_end() {
-            return Err(SolveError::EndOfTravel { time_s });
+            let travel_m = self.course.slider.law.travel_m();
+            return Err(SolveError::EndOfTravel { time_s, travel_m });
         }
         Ok(())
     }
