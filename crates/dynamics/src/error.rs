@@ -508,6 +508,26 @@ fn nearest_suffix(nearest: Option<&str>) -> String {
     nearest.map_or_else(String::new, |nearest| format!("; nearest is \"{nearest}\""))
 }
 
+/// Most names that a message lists.
+const LISTED: usize = 20;
+
+/// Names in a message: the first twenty, and how many more there are.
+///
+/// ```
+/// let names = (1..=23).map(|n| n.to_string());
+/// assert!(slipstick::error::listed(names).ends_with("19, 20, … (3 more)"));
+/// ```
+#[must_use]
+pub fn listed(names: impl IntoIterator<Item = String>) -> String {
+    let mut names = names.into_iter();
+    let mut text = names.by_ref().take(LISTED).collect::<Vec<_>>().join(", ");
+    match names.count() {
+        0 => {}
+        more => text.push_str(&format!(", … ({more} more)")),
+    }
+    text
+}
+
 /// A found text as messages show it: [`visible`], cut to 40 characters.
 pub fn cut(text: &str) -> String {
     const LONGEST: usize = 40;

@@ -74,10 +74,14 @@ kinds! {
     // Reading a record or a measured test.
     /// The largest acceleration is none that an earthquake has.
     AbsurdPeak "absurd_peak" Severe,
+    /// The motion as it is used has a peak velocity, displacement or acceleration that no earthquake has.
+    AbsurdMotion "absurd_motion" Severe,
     /// A channel of the file was left out.
     ChannelSkipped "channel_skipped" Warning,
     /// The largest value stands several times: the recorder was probably clipped.
     Clipped "clipped" Warning,
+    /// The unit of times was taken from their size: a clock that counts since 1970.
+    ClockAssumed "clock_assumed" Warning,
     /// Times of blocks run away from equal steps.
     ClockDrift "clock_drift" Warning,
     /// A column was left out.
@@ -98,6 +102,8 @@ kinds! {
     HeaderDiffers "header_differs" Warning,
     /// Horizontal and vertical components differ in length.
     LengthsDiffer "lengths_differ" Warning,
+    /// The samples lie further apart than those of any record: times that are no seconds.
+    LongStep "long_step" Severe,
     /// The mean was taken off the values.
     MeanRemoved "mean_removed" Note,
     /// The modes of the structure lack some of its mass, which moves with the block.
@@ -108,6 +114,8 @@ kinds! {
     MissingValues "missing_values" Warning,
     /// The channel has no intensity measures.
     NoMeasures "no_measures" Warning,
+    /// No value is below 0 and the last is above it: perhaps a spectrum.
+    OneSided "one_sided" Severe,
     /// Blocks overlap in time.
     Overlap "overlap" Warning,
     /// The stated peak is not that of the values.
@@ -134,6 +142,8 @@ kinds! {
     TimesRounded "times_rounded" Warning,
     /// The file ends before what it announces.
     Truncated "truncated" Severe,
+    /// A column's name states no unit; one was taken that makes its peak that of an earthquake.
+    UnitsAssumed "units_assumed" Severe,
 
     // The model and the motion under it.
     /// Samples lie too far apart for the highest mode.

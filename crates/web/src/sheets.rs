@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use slipstick::assessment::models::Models;
 use slipstick::assessment::suite::Suite;
+use slipstick::error::listed;
 use slipstick::input::loaded::{Components, Loaded, Wanted};
 use slipstick::input::plan::Plan;
 use slipstick::input::unfit::refuse_unfit;
@@ -763,7 +764,7 @@ fn planned(
                 missing.len(),
                 patterns.len()
             );
-            let found = format!("no file for {}", missing.join(", "));
+            let found = format!("no file for {}", listed(missing));
             Err(in_plan(plan.error_at(&format!("records.{key}"), expected, found)))
         };
         let files = named("files", &wanted.files)?;

@@ -2,7 +2,7 @@
 //! component, the scale, and what is to be said of all that.
 
 use super::{PairOf, Scale};
-use crate::error::MotionError;
+use crate::error::{MotionError, listed};
 use crate::motion::processing::{Step, process_motion};
 use crate::motion::{Figures, GroundMotion};
 use crate::notice::{Notice, NoticeKind};
@@ -271,8 +271,8 @@ fn choose(wanted: Wanted<'_>, component: Component) -> Result<&Channel, LoadErro
         let describe = |(i, c): (usize, &Channel)| {
             format!("{} {:?} ({})", i + 1, c.name, c.units.quantity().name())
         };
-        let channels: Vec<_> = record.channels.iter().enumerate().map(describe).collect();
-        LoadError::Channel { expected, key, channels: channels.join(", "), component }
+        let channels = listed(record.channels.iter().enumerate().map(describe));
+        LoadError::Channel { expected, key, channels, component }
     };
     if let Some(name) = wanted.channel {
         let channel = record.channel(name).filter(is_acceleration);
@@ -319,7 +319,10 @@ fn of_motion(motion: &GroundMotion, figures: &Figures, differ: &[&str]) -> Vec<N
         _ => vec![(figures, motion.horizontal_m_per_s2(), "")],
     };
     for (figures, samples, axis) in axes {
-        let Figures { pga_m_per_s2, pgv_m_per_s, end_velocity_m_per_s, .. } = *figures;
+        let Figures { pga_m_per_s2, pgv_m_per_s, pgd_m, end_velocity_m_per_s } = *figures;
+        let beyond = record::beyond_earthquakes(pga_m_per_s2, pgv_m_per_s, pgd_m);
+        let beyond = beyond.map(|w| Notice { message: format!("{axis}{}", w.message), ..w });
+        warnings.extend(beyond);
         for w in record::rest(samples[0], pga_m_per_s2, end_velocity_m_per_s, pgv_m_per_s) {
             let at_start = w.kind != NoticeKind::RecordDrift;
             let time_s = Some(if at_start { 0.0 } else { motion.duration_s() });
