@@ -20,12 +20,12 @@ use super::{
     Channel, FilterCorners, Format, Options, Record, RecordError, Sampling, Units, keys_to_add,
     sampling, to_si,
 };
-use slipstick_dynamics::notice::{Notice, NoticeKind};
 pub(super) use columns::read as read_columns;
 pub use columns::{Column, Columns};
 pub use header::bracket;
 use header::{Header, Name, Unit, is_comment};
 use layout::Layout;
+use slipstick_dynamics::notice::{Notice, NoticeKind};
 use table::Table;
 pub(super) use target::read as read_target;
 

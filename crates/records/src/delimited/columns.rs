@@ -2,9 +2,9 @@
 
 use super::header::{Header, Name};
 use super::table::Table;
+use crate::text::Text;
 use slipstick_dynamics::error::{RecordError, listed};
 use slipstick_dynamics::motion::MAX_SAMPLES;
-use crate::text::Text;
 
 /// A column of numbers as they stand in a file.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,9 +2,9 @@
 
 use super::style::Separator;
 use super::table::Table;
-use slipstick_dynamics::error::RecordError;
 use crate::text::{Line, Text, number};
 use crate::unit::{Units, seconds};
+use slipstick_dynamics::error::RecordError;
 use slipstick_dynamics::units::{Dimension, parse_unit};
 
 /// Most lines of text, comments not counted, before the numbers; more where the last of them names

@@ -3,11 +3,11 @@
 use super::clock;
 use super::header::{Header, Name, Unit};
 use super::table::Table;
+use crate::sampling;
+use crate::text::Text;
 use slipstick_dynamics::error::RecordError;
 use slipstick_dynamics::motion::{Gap, MAX_SAMPLES, gap};
 use slipstick_dynamics::notice::{Notice, NoticeKind};
-use crate::sampling;
-use crate::text::Text;
 
 /// What the columns are.
 pub(super) struct Layout {

@@ -5,9 +5,9 @@ use core::ops::Range;
 use super::clock::{self, Instant};
 use super::header::{Header, is_comment};
 use super::style::{Separator, Style};
+use crate::text::{Line, Text};
 use slipstick_dynamics::error::RecordError;
 use slipstick_dynamics::motion::MAX_SAMPLES;
-use crate::text::{Line, Text};
 
 /// All numbers of a file.
 pub(super) struct Table {

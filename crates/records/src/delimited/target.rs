@@ -2,10 +2,10 @@
 
 use super::header::{Header, Name, Unit};
 use super::table::Table;
+use crate::text::Text;
 use slipstick_dynamics::error::RecordError;
 use slipstick_dynamics::motion::Quantity;
 use slipstick_dynamics::motion::target::TargetSpectrum;
-use crate::text::Text;
 
 /// Reads the periods, `T`, `Tn` or `Period`, in s where no unit says otherwise, and the accelerations,
 /// `Sa`, `Sae` or `PSA`, whose unit must stand with the name, in any brackets.
