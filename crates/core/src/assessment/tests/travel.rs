@@ -30,7 +30,7 @@ fn suite() -> Suite {
     let record = |i: u32| {
         let wave = |k: u32| {
             let t = 0.02 * f64::from(k);
-            let rate = 2.0 + 0.25 * f64::from(i);
+            let rate = 2.5 + 0.7 * f64::from(i);
             libm::sin(rate * t) * libm::sin(0.3 * t) * libm::exp(-0.02 * t)
         };
         let motion = GroundMotion::evenly_spaced(0.02, (0..500).map(wave).collect(), None);
@@ -84,7 +84,7 @@ fn ida_and_fragility_count_runs_that_used_up_their_travel() {
     let ended = travel_used_up(&run.failures);
     assert!(ended > 10 && ended == run.failures.len(), "{ended} of {}", run.rows.rows());
     let travels = numbers(&run.rows, TRAVEL_USED_UP);
-    assert_eq!(travels.iter().filter(|travel| **travel == TRAVEL_M).count(), ended);
+    assert_eq!(travels.iter().filter(|travel| (**travel - TRAVEL_M).abs() < 1e-12).count(), ended);
 
     let counted = fragility(&run.rows, 0.18, FitTo::Counts);
     let Data::Stripes(stripes) = &counted.data else { panic!("{:?}", counted.data) };
@@ -101,13 +101,16 @@ fn ida_and_fragility_count_runs_that_used_up_their_travel() {
     let of_runs = fragility(&run.rows, 0.18, FitTo::Capacities);
     let of_ida = run.groups[0].fit.clone().unwrap().unwrap().curve();
     assert_eq!(of_runs.fragility.curve(), of_ida);
-    assert!((counted.fragility.curve().median / of_ida.median - 1.0).abs() < 0.15);
+    // A crossing lies up to one step of the levels below where it is put, 1.5 of its level.
+    assert!((1.0..1.5).contains(&(of_ida.median / counted.fragility.curve().median)));
 
     // A limit beyond the travel is not known to be passed.
     let run = ida(0.3);
     let crossings = run.groups[0].curves.iter().map(|curve| curve.first_crossing(0.3));
     assert!(crossings.clone().all(|crossing| !crossing.reached));
-    assert_eq!(crossings.filter(|crossing| crossing.cut_short).count(), 8);
+    let last = run.groups[0].curves.iter().filter_map(|curve| curve.demands.last());
+    let ended = last.filter(|demand| demand.value().is_nan()).count();
+    assert_eq!(crossings.filter(|crossing| crossing.cut_short).count(), ended);
 }
 
 /// A spectrum: a fractile of the displacement that falls on such runs is infinite, one of the acceleration is of the
@@ -131,7 +134,7 @@ fn spectra_put_used_up_travel_above_all() {
     let of =
         |key: &str| &run.curves.iter().find(|curves| curves.key == key).unwrap().fractiles[0][0];
     assert_eq!(of(DEMAND)[2], f64::INFINITY);
-    assert!(of("peak_block_acceleration_m_per_s2").iter().all(|value| value.is_finite()));
+    assert!(of("block.peak_acceleration_m_per_s2").iter().all(|value| value.is_finite()));
 }
 
 /// A design: a gap within the travel is passed by such runs.
@@ -147,7 +150,7 @@ fn designs_count_used_up_travel_as_beyond_the_gap() {
             suite: &suite,
             scaling: &scaling,
             target: Target { gap_m, probability: 0.1, acceleration_share: 0.5 },
-            acceleration: "peak_block_acceleration_m_per_s2",
+            acceleration: "block.peak_acceleration_m_per_s2",
             bounds: None,
             sensitivity: 0,
             seed: 0,
@@ -167,7 +170,7 @@ fn designs_count_used_up_travel_as_beyond_the_gap() {
 #[test]
 fn studies_count_used_up_travel_above_all() {
     let text = "model = \"m.toml\"\n[records]\nfiles = \"*.txt\"\nmeasure = \"PGA\"\n\
-                levels = [\"1 m/s2\", \"4.5 m/s2\"]\n";
+                levels = [\"0.3 m/s2\", \"4.5 m/s2\"]\n";
     let plan = Plan::parse("p.toml", text).unwrap();
     let study = Study::new(&plan, "m.toml", TRIPLE, suite().records).unwrap();
     let engine = Engine::unwatched();
@@ -175,7 +178,7 @@ fn studies_count_used_up_travel_above_all() {
     let table = study.table(&rows);
     let travels = numbers(&table, TRAVEL_USED_UP);
     assert_eq!(study.fields()[study.travel_used_up().unwrap()].name, TRAVEL_USED_UP);
-    let ended = travels.iter().filter(|travel| **travel == TRAVEL_M).count() as u64;
+    let ended = travels.iter().filter(|travel| (**travel - TRAVEL_M).abs() < 1e-12).count() as u64;
     assert!(ended > 1 && ended < 8, "{ended}");
     let solved = |take: &mut dyn FnMut(u64, bool)| {
         rows.iter().for_each(|row| take(row.run, row.error.is_none()));
@@ -199,7 +202,7 @@ fn studies_count_used_up_travel_above_all() {
     assert_eq!((of(0, DEMAND).beyond, of(1, DEMAND).beyond), (0, ended));
     assert!(of(0, DEMAND).mean.is_finite() && of(1, DEMAND).mean.is_nan());
     assert_eq!((of(1, DEMAND).quantiles[2], of(1, DEMAND).max), (f64::INFINITY, f64::INFINITY));
-    let acceleration = of(1, "peak_block_acceleration_m_per_s2");
+    let acceleration = of(1, "block.peak_acceleration_m_per_s2");
     assert_eq!((acceleration.failures, acceleration.beyond), (ended, 0));
     assert!(acceleration.mean.is_finite());
     // As `fractile` sorts them.
