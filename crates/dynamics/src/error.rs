@@ -577,11 +577,15 @@ pub fn is_hidden(character: char) -> bool {
         )
 }
 
-/// The known word nearest to `word`, where the two are alike: at least half of it is the same.
+/// The known word nearest to `word`, where the two are alike: at least half of it is the same. None where
+/// the word itself is known, and stands in a wrong place.
 #[must_use]
 pub fn similar<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
     let (distance, nearest) =
         known.map(|known| (edit_distance(word, known), known)).min_by_key(|(d, _)| *d)?;
+    if distance == 0 {
+        return None;
+    }
     let longer = word.chars().count().max(nearest.chars().count());
     (2 * distance <= longer + 1).then(|| nearest.to_owned())
 }

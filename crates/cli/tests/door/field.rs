@@ -250,6 +250,47 @@ fn ground_accelerations_of_eurocode_8() {
     assert!(!of_text(&folder, &other, &[]).unwrap().1.iter().any(|kind| kind.contains("units")));
 }
 
+/// A vertical component that is run alone is told, unless it was asked for by name.
+#[test]
+fn vertical_components_are_told() {
+    let folder = Folder::with_model("field-vertical", MODEL);
+    folder.write("quake-UP.csv", table("time_s,acceleration_m_per_s2", ",", seconds, 1.0));
+    let told = "severe vertical_component".to_owned();
+    let path = Path::new("quake-UP.csv");
+    assert!(run(&folder, path, &[]).unwrap().1.contains(&told));
+    let asked = ["--channel", "acceleration_m_per_s2"];
+    assert!(!run(&folder, path, &asked).unwrap().1.contains(&told));
+    let own = format!("{MODEL}[motion]\nrecord = \"quake-UP.csv\"\n");
+    folder.write("own.toml", own);
+    let json = folder.json(&["own.toml"]);
+    assert!(json["warnings"].as_array().unwrap().iter().any(|w| w["kind"] == "vertical_component"));
+}
+
+/// A table of thousands of columns is refused before anything is computed of them; messages list twenty.
+#[test]
+fn wide_tables_are_refused_at_once() {
+    let folder = Folder::with_model("field-wide", MODEL);
+    let wide = |columns: usize| {
+        let names: Vec<String> = (0..columns).map(|c| format!("c{c}_g")).collect();
+        let row = |t: f64| format!("{t}{}\n", ",0.1".repeat(columns));
+        format!("time_s,{}\n{}{}{}", names.join(","), row(0.0), row(0.01), row(0.02))
+    };
+    let refusal = of_text(&folder, &wide(20_000), &[]).unwrap_err();
+    assert!(refusal.contains("at most 1000 columns"), "{refusal}");
+    let refusal = of_text(&folder, &wide(900), &[]).unwrap_err();
+    assert!(refusal.contains("(880 more)") && refusal.len() < 2000, "{refusal}");
+    let points: Vec<String> = (0..10_000).map(|p| format!("p{p}_x")).collect();
+    let modes =
+        format!("period_s,participation_x,{}\n1,1{}\n", points.join(","), ",1".repeat(10_000));
+    folder.write("modes.csv", modes);
+    let model = format!(
+        "{MODEL}[structure]\nmass = \"100 t\"\ndamping_ratio = 0.02\nmodes = \"modes.csv\"\n"
+    );
+    folder.write("model.toml", model);
+    let refusal = folder.refused(&["run", "model.toml"]);
+    assert!(refusal.contains("at most 200 points"), "{refusal}");
+}
+
 /// The files that people sent, where they are at hand, with what each must come to.
 #[test]
 fn files_from_the_field() {

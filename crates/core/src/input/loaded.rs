@@ -1,6 +1,7 @@
 //! From records that were read to the motion that is analysed: the choice of channel, the vertical
 //! component, the scale, and what is to be said of all that.
 
+use super::unfit::vertical_alone;
 use super::{PairOf, Scale};
 use crate::error::{MotionError, listed};
 use crate::motion::processing::{Step, process_motion};
@@ -155,6 +156,25 @@ impl Loaded {
         let said = steps.iter().map(Step::to_string);
         let description = self.description.iter().cloned().chain(said).collect();
         Ok(Some(Self { description, ..self.with(motion, 1.0) }))
+    }
+
+    /// With a notice of each file along the surface that is a vertical component; a channel that was asked
+    /// for by name is the one that is wanted. Each file stands with the channel that was asked for.
+    #[must_use]
+    pub fn with_vertical_told(
+        mut self,
+        x: (&str, Option<&str>),
+        along_y: Option<(&str, Option<&str>)>,
+    ) -> Self {
+        let none = Origin::default();
+        let of_y = self.origin.along_y.as_deref().unwrap_or(&none);
+        let files = [Some((x, &self.origin)), along_y.map(|y| (y, of_y))];
+        let told = |((path, channel), origin): ((&str, Option<&str>), &Origin)| {
+            if channel.is_some() { None } else { vertical_alone(path, origin) }
+        };
+        let told: Vec<Notice> = files.into_iter().flatten().filter_map(told).collect();
+        self.warnings.extend(told);
+        self
     }
 
     /// One of its components, with the label of its place.
