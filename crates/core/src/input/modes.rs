@@ -193,8 +193,15 @@ fn read<'a>(
     for (wanted, expected) in [
         (&["period", "frequency"][..], "a column period_s or frequency_hz"),
         (
-            &["participation", "effective_mass", "effective_mass_ratio"],
-            "a column participation_x, effective_mass_kg or effective_mass_ratio",
+            &[
+                "participation",
+                "effective_mass",
+                "effective_mass_ratio",
+                "participation_y",
+                "effective_mass_y",
+                "effective_mass_ratio_y",
+            ],
+            "a column participation_x, effective_mass_kg or effective_mass_ratio, or one along y",
         ),
     ] {
         if !has(wanted) {

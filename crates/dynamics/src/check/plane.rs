@@ -11,7 +11,6 @@ mod interval;
 mod judge;
 mod peaks;
 mod step;
-mod straight;
 
 use super::ground::Ground;
 use super::judge::JudgeInput;
@@ -43,9 +42,6 @@ pub(super) fn check(
     };
     if !(is_within(model) && well_formed(model, model.storeys_in_plane(), motion, h)) {
         return unjudged();
-    }
-    if let Some(axis) = straight::only_axis(model, motion) {
-        return straight::check(model, motion, (response, plane, h, along_y), axis, go_on);
     }
     let vertical = motion.vertical_m_per_s2().is_some();
     let end_s = h.time_s.last().copied().unwrap_or(0.0);

@@ -31,6 +31,8 @@ pub(super) struct Walk<'a, P> {
     before: [f64; 2],
     /// Whether a jump is walked, in which displacements stand.
     walks_jump: bool,
+    /// Factor on what of a decision is taken for rounding.
+    doubt: f64,
     /// What friction takes of a push against a rigid stop has just become all of it, or too little.
     leant: bool,
     leans_since_s: Option<f64>,
@@ -56,6 +58,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
             units,
             before,
             walks_jump: false,
+            doubt: 1.0,
             leant: false,
             leans_since_s: None,
             turn: None,

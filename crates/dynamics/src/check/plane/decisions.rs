@@ -3,7 +3,7 @@
 use super::super::collocation::POINTS;
 use super::super::ground::nearest;
 use super::super::structure::larger;
-use super::frame::{Loads, Pair, between, dot, norm, times, unit};
+use super::frame::{Loads, Pair, between, dot, norm, unit};
 use super::judge::{EventDirection, Minima, PlaneJudge, REST};
 use super::step::{FINE, State, Step, Stretch, sine};
 use crate::response::Mode;
@@ -104,8 +104,7 @@ impl<'a> PlaneJudge<'a> {
         if body.is_one() || norm(push) >= slowing {
             return body.departure(push, slowing);
         }
-        // Of a speed that is of no account.
-        body.way_to_rest(times(from, 1e-200), push, slowing, 1.0)?.1
+        Some(body.end_of_turn(from, push, slowing))
     }
 
     /// The last direction of sliding before a stop at a knot.

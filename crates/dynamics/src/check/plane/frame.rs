@@ -274,6 +274,20 @@ impl<'a> PlaneFrame<'a> {
         Forces { base, spring, damper, push }
     }
 
+    /// The largest sum of the sizes of the terms of `K q + C q̇` of a floor: what of these forces is rounding is a part of
+    /// it, and not of the force, where a soft and a stiff storey meet.
+    pub(super) fn largest_terms(&self, x: &[f64], v: &[f64]) -> f64 {
+        let width = self.masses_kg.len();
+        let sizes = |rows: &[f64], of: &[f64]| -> f64 {
+            rows.iter().zip(&of[2..]).map(|(k, q)| (k * q).abs()).sum()
+        };
+        (0..width).fold(0.0, |most: f64, i| {
+            let [elastic, viscous] =
+                [&self.stiffness, &self.damping].map(|rows| &rows[i * width..][..width]);
+            most.max(sizes(elastic, x) + sizes(viscous, v))
+        })
+    }
+
     /// `v̇ᵀ C v̇`-like form of rows: `Σ z_i rows_ij z_j`.
     fn form(rows: &[f64], z: &[f64]) -> f64 {
         let products = rows.chunks_exact(z.len().max(1)).zip(z);

@@ -277,7 +277,7 @@ impl<'a> PlaneJudge<'a> {
         let to_rest = if body.is_one() {
             time_to_rest(w, push, f)
         } else {
-            body.way_to_rest(w, push, f, shortest_m).map(|(rest_s, _)| rest_s)
+            body.time_to_rest(w, push, f, shortest_m)
         };
         let rest_s = match to_rest {
             Some(rest_s) if r * rest_s < shortest_m => Some(rest_s),

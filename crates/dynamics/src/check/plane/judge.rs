@@ -374,6 +374,11 @@ impl Directions for PlaneJudge<'_> {
         (plane.heading, plane.arrived) = (None, 0.0);
     }
 
+    /// The motion is found over the table, whose acceleration a block without friction does not have.
+    fn carried_n(&self) -> f64 {
+        self.frame().total_kg * self.largest.1
+    }
+
     fn compare_demands(&self, c: &mut Comparison, rounding: &Rounding) {
         self.compare_printed(c, rounding);
     }

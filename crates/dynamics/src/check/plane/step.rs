@@ -267,12 +267,15 @@ impl Stepper<'_> {
         let (rule, frame, h) = (self.rule, self.frame, stretch.step_s);
         let d = frame.degrees();
         let mut floors = vec![0.0; d - 2];
-        let mut state = State { x: vec![0.0; d], v: vec![0.0; d] };
+        let mut state = from.clone();
         let mut last = f64::INFINITY;
         let mut pulls = vec![0.0; NODES * (d - 2)];
+        let per_kg = 1.0 / frame.least_kg();
         for pass in 0..MOST_PASSES {
             let mut system = Newton::default();
-            let (mut change, mut size) = (0.0_f64, 0.0_f64);
+            // An acceleration is known to the rounding of the forces that it is made of.
+            let mut size = frame.largest_terms(&state.x, &state.v) * per_kg;
+            let mut change = 0.0_f64;
             for i in 0..NODES {
                 node(rule, h, from, rates, i, &mut state);
                 let loads = between(&stretch.loads, rule.c[i]);
