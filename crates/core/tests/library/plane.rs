@@ -5,9 +5,7 @@
 // tests do; a seed from outside to look for more.
 #![allow(clippy::disallowed_macros, clippy::disallowed_methods, clippy::expect_used)]
 
-mod common;
-
-use common::random_in_plane::{Random, System, libm_sin};
+use crate::common::random_in_plane::{Random, System, libm_sin};
 use slipstick::check::check;
 use slipstick::model::{InitialState, Model, Slider};
 use slipstick::response::{Demands, EventKind, Response};

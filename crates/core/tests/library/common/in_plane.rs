@@ -112,8 +112,8 @@ pub fn taft(peak_g: f64, samples: usize) -> GroundMotion {
         GroundMotion::evenly_spaced(0.01, values, None).expect("a component")
     };
     let [x, y] = [
-        include_str!("../../../../examples/records/taft-021.txt"),
-        include_str!("../../../../examples/records/taft-111.txt"),
+        include_str!("../../../../../examples/records/taft-021.txt"),
+        include_str!("../../../../../examples/records/taft-111.txt"),
     ]
     .map(component);
     let (pair, _) = x.with_along_y(&y).expect("a pair");
