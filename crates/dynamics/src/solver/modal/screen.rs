@@ -148,7 +148,7 @@ impl<'a> Modal<'a> {
                 group,
                 &mut known,
             );
-            self.record_batch(how, course, batch, sample, steps, a, force);
+            self.record_batch(how, course, batch, [sample, steps], (a, force));
             sample += steps;
             core::mem::swap(&mut self.x, &mut self.next);
             if steps < BATCH {
@@ -204,7 +204,7 @@ impl<'a> Modal<'a> {
                 }
                 let (x, next) = (&self.x[..stride], &mut self.next[..stride]);
                 batch.maps.after(simd, BATCH, x, a, force, next);
-                self.record_batch(how, course, batch, sample, BATCH, a, force);
+                self.record_batch(how, course, batch, [sample, BATCH], (a, force));
                 self.swap_in_stick();
                 sample += BATCH;
                 continue;
@@ -255,7 +255,7 @@ impl<'a> Modal<'a> {
                 group,
                 &mut known,
             );
-            self.record_batch(how, course, batch, sample, steps, a, force);
+            self.record_batch(how, course, batch, [sample, steps], (a, force));
             sample += steps;
             self.swap_in_stick();
             if steps < BATCH {
@@ -426,7 +426,7 @@ impl<'a> Modal<'a> {
             for from in (sample..sample + QUIET).step_by(BATCH) {
                 let a = self.window(from);
                 let force = Force::Constant(0.0);
-                self.record_batch(how, course, batch, from, BATCH, a, force);
+                self.record_batch(how, course, batch, [from, BATCH], (a, force));
                 batch.maps.after(how.simd, BATCH, &self.x, a, force, &mut self.next);
                 self.swap_in_stick();
             }
@@ -447,10 +447,8 @@ impl<'a> Modal<'a> {
         how: How<S, W>,
         course: &Course<'a>,
         batch: &Batch,
-        sample: usize,
-        steps: usize,
-        a: &Window,
-        force: Force<'_>,
+        [sample, steps]: [usize; 2],
+        (a, force): (&Window, Force<'_>),
     ) {
         let Some(recorder) = &mut self.recorder else { return };
         let InForce { mode, contact, tables, .. } = self.now;
