@@ -179,10 +179,11 @@ fn offsets(text: &Text) -> Vec<(String, f64)> {
 /// Fewest values that look like a spectrum.
 const FEWEST_ORDINATES: usize = 5;
 
-/// Whether values are at least as large as 0, leave it once and never come back: a spectrum's, and no
-/// motion's, which ends at rest.
+/// Whether values are at least as large as 0, leave it once and never come back, and differ: a spectrum's,
+/// and no motion's, which ends at rest.
 fn never_returns(values: &[f64]) -> bool {
     values.len() >= FEWEST_ORDINATES
+        && values.iter().any(|value| *value != values[0])
         && values.iter().all(|value| *value >= 0.0)
         && values.iter().skip_while(|value| **value == 0.0).all(|value| *value > 0.0)
         && values.last().is_some_and(|value| *value > 0.0)
