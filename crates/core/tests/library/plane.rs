@@ -221,8 +221,13 @@ fn friction_of_a_pair_in_proportion_is_its_part() {
     let response = system.response();
     assert!(response.demands.slip_count > 0);
     is_on_a_line(4, &response, [0.6, 0.8]);
-    let c = check(&system.model(), &system.motion(), &response);
-    assert!(c.holds(), "{c:?}");
+    let judge = |response: &Response| check(&system.model(), &system.motion(), response);
+    assert!(judge(&response).holds(), "{:?}", judge(&response));
+    // What friction would have along x if it had turned through that axis.
+    let mut turned = response.clone();
+    let whole_n = response.demands.peak_friction_force_n;
+    turned.in_plane.as_mut().expect("a plane").axes[0].peak_friction_force_n = whole_n;
+    assert!(judge(&turned).demands_error > 0.1);
 }
 
 /// Without kinetic friction nothing turns a motion to a line, and what passes rest on one is held there as in

@@ -152,23 +152,18 @@ impl Body {
             }
             (before, after) = (after, after + step);
         }
-        // By chords, and by halves where these do not halve it.
-        let (mut goes_on, mut is_over) = (rate(before), rate(after));
-        for pass in 0..200 {
-            let chord = before + (after - before) * (goes_on / (goes_on - is_over));
-            let angle = if pass % 3 == 2 { 0.5 * (before + after) } else { chord };
-            let is_between = (angle - before) * (after - angle) > 0.0;
-            if !is_between {
-                break;
+        // By halves: a chord may end beside the side at which it turns least.
+        loop {
+            let middle = 0.5 * (before + after);
+            if middle == before || middle == after {
+                return [libm::cos(after), libm::sin(after)];
             }
-            let here = rate(angle);
-            if here * first > 0.0 {
-                (before, goes_on) = (angle, here);
+            if rate(middle) * first > 0.0 {
+                before = middle;
             } else {
-                (after, is_over) = (angle, here);
+                after = middle;
             }
         }
-        [libm::cos(after), libm::sin(after)]
     }
 }
 

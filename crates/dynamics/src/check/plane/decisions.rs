@@ -78,6 +78,9 @@ impl<'a> PlaneJudge<'a> {
             let off = frame.block_kg * (p - f);
             self.figures.excess = larger(self.figures.excess, off);
         }
+        if self.axes.on_line {
+            return;
+        }
         let Some(from) = self.last_heading(k) else { return };
         let Some(to) = self.last_direction(from, push, f) else { return };
         if !frame.body.is_one() {
@@ -117,7 +120,7 @@ impl<'a> PlaneJudge<'a> {
     /// Directions of sliding that pass between two knots of one time.
     pub(super) fn turn_between(&mut self, k: usize) {
         let slips = |k: usize| self.mode(k) != Mode::Stick;
-        if !(slips(k) && slips(k + 1)) {
+        if self.axes.on_line || !(slips(k) && slips(k + 1)) {
             return;
         }
         let [from, to] = [k, k + 1].map(|k| self.state(k));
