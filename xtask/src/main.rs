@@ -54,6 +54,8 @@ Usage: cargo xtask TASK
   bench-python [--quick] [--write]
                                  times the Python package beside the command, its import, its tables
                                  and a cluster of Dask (--write: into book/src/generated/python.md)
+  notices [--write]              the table of what every notice means
+                                 (--write: into book/src/generated/notices.md)
   python-docs [--write]          compares the book's reference of the Python package with its
                                  docstrings (--write: writes it; needs python3)
   notebooks                      runs the notebooks of the examples and writes them as pages of the
@@ -96,6 +98,7 @@ fn main() -> ExitCode {
         ["bench-structure", options @ ..] => peers::bench_structure(options),
         ["bench-study", options @ ..] => peers::bench_study(options),
         ["bench-python", options @ ..] => peers::bench_python(options),
+        ["notices", options @ ..] => tools::notices(options),
         ["python-docs", options @ ..] => python::docs(options),
         ["notebooks"] => python::notebooks(),
         ["python-free-threaded"] => python::free_threaded(),

@@ -45,6 +45,20 @@ pub fn figures() -> Outcome {
     paper::draw().map(drop)
 }
 
+/// The table of what every notice means, from that of the program.
+pub fn notices(options: &[&str]) -> Outcome {
+    if !matches!(options, [] | ["--write"]) {
+        return Err(format!("notices: expected --write or nothing, found {}", options.join(" ")));
+    }
+    let table = "run --quiet -p slipstick-files --example notices";
+    let table = shell::output(&mut shell::cargo(table))?;
+    if options.is_empty() {
+        print!("{table}");
+        return Ok(());
+    }
+    shell::write(&shell::root().join("book/src/generated/notices.md"), &table)
+}
+
 /// The manual pages of the command, into `man` in the target folder.
 pub fn man() -> Outcome {
     let folder = shell::target_folder()?.join("man");

@@ -473,7 +473,8 @@ impl Analysis {
     /// [`InputError`] where neither the file nor the caller says it.
     pub fn required_motion(&self) -> Result<&MotionSource, InputError> {
         self.motion.as_ref().ok_or_else(|| {
-            let expected = "a table [motion] with one of the keys record, sine, sweep, pulse";
+            let expected = "a table [motion] with one of the keys record, sine, sweep, pulse (or a \
+                            record beside the model: --motion FILE, --records PATTERN)";
             self.error_at("motion", expected, "nothing")
         })
     }

@@ -7,6 +7,7 @@
 
 pub(crate) mod cases;
 mod columns;
+mod demanded;
 mod design;
 pub mod engine;
 pub(crate) mod notices;
@@ -16,7 +17,10 @@ pub mod summary;
 mod verify;
 
 pub use cases::{Case, CaseRun, Cases, FailedRun};
+pub(crate) use demanded::SLIDING;
+pub use demanded::{Demanded, TRAVEL_USED_UP, travel_used_up};
 pub use design::Design;
+pub use notices::USUAL_FACTORS;
 pub use records::Record;
 pub use rows::Row;
 pub use summary::{LevelSummary, StudySummary};
@@ -77,6 +81,8 @@ pub struct Study {
     design: Design,
     variation: Variation,
     records: Vec<Record>,
+    /// For each record the first one whose demands it shares: of its pair, or of its earthquake and station.
+    clusters: Vec<usize>,
     levels: Levels,
     /// Factors of each record's levels, record by record.
     factors: Vec<f64>,
@@ -240,6 +246,7 @@ impl Study {
             design,
             variation,
             unscaled: records.iter().map(|_| OnceLock::new()).collect(),
+            clusters: records::clusters(&records),
             records,
             levels,
             factors: Vec::new(),
@@ -290,10 +297,20 @@ impl Study {
         records::has_pairs(&self.records)
     }
 
-    /// The name of a record's pair, that of its first component; empty where it is in none.
+    /// Whether some records are not independent: components of a pair, or records whose files say that they are
+    /// of one earthquake and station.
     #[must_use]
-    pub fn pair_name(&self, record: &Record) -> &str {
-        records::pair_name(&self.records, record)
+    pub fn has_clusters(&self) -> bool {
+        self.clusters.iter().enumerate().any(|(record, first)| record != *first)
+    }
+
+    /// The name of those that a record is one of, that of the first; empty where it is alone.
+    #[must_use]
+    pub fn cluster_name(&self, record: usize) -> &str {
+        let first = self.clusters.get(record).copied();
+        let alone = self.clusters.iter().filter(|other| Some(**other) == first).count() <= 1;
+        let name = first.and_then(|first| self.records.get(first)).filter(|_| !alone);
+        name.map_or("", |record| &record.name)
     }
 
     /// How pairs were brought to a target spectrum, where the plan asks for it.

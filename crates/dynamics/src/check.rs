@@ -135,6 +135,9 @@ pub struct Certificate {
     /// those of the collocation polynomials, between knots too; rounding (64 ε of the largest terms,
     /// 8 ε of the end for times) is no difference.
     pub demands_error: f64,
+    /// The demand of that difference, as its key, `events` or `counts`, in two directions after `x.` or `y.` where it
+    /// is of an axis; `None` where there is none.
+    pub demand_in_error: Option<String>,
     /// The nearest decision; `None` where nothing was decided.
     pub closest_call: Option<ClosestCall>,
     /// What the first four must stay below: max(1e-10, 100 ε ω_max t_end), with Gershgorin's upper
@@ -148,6 +151,23 @@ impl Certificate {
     #[must_use]
     pub fn energy(&self) -> EnergyHistory {
         self.books.history()
+    }
+
+    /// The figures that do not stay within the bound, each by its name; that of the demands with the demand.
+    #[must_use]
+    pub fn defects(&self) -> Vec<(String, f64)> {
+        let of_demand = match &self.demand_in_error {
+            Some(demand) => format!("demands error of {demand}"),
+            None => "demands error".to_owned(),
+        };
+        let all = [
+            ("equilibrium residual".to_owned(), self.equilibrium_residual),
+            ("friction excess".to_owned(), self.friction_excess),
+            ("energy balance error".to_owned(), self.energy_balance_error),
+            (of_demand, self.demands_error),
+        ];
+        // What is not a number is not within it.
+        all.into_iter().filter(|(_, figure)| !(*figure <= self.bound)).collect()
     }
 
     /// Whether the first four figures stay within the bound.
@@ -243,6 +263,7 @@ fn unjudged(bound: f64) -> Certificate {
         friction_excess: f64::INFINITY,
         energy_balance_error: f64::INFINITY,
         demands_error: f64::INFINITY,
+        demand_in_error: None,
         closest_call: None,
         bound,
         books: Books::default(),

@@ -211,6 +211,8 @@ pub enum SolveError {
     EndOfTravel {
         /// When, in s.
         time_s: f64,
+        /// The travel of all of them together, in m: the sliding displacement then, to either side.
+        travel_m: f64,
     },
     /// A model that a method does not take.
     #[error("{method}: expected a model without {what}")]
@@ -258,6 +260,17 @@ pub enum RunError {
     /// The analysis itself.
     #[error(transparent)]
     Solve(#[from] SolveError),
+}
+
+impl RunError {
+    /// The sliding displacement in m that the run reached, where it ended because its travel was used up.
+    #[must_use]
+    pub fn travel_used_up_m(&self) -> Option<f64> {
+        match self {
+            Self::Solve(SolveError::EndOfTravel { travel_m, .. }) => Some(*travel_m),
+            _ => None,
+        }
+    }
 }
 
 /// What ended because the callback that followed it said so.
@@ -370,6 +383,24 @@ pub enum FitError {
     NoMaximum,
 }
 
+impl FitError {
+    /// The same with its intensities in a unit that is so much in theirs.
+    #[must_use]
+    pub fn with_intensities_over(self, in_si: f64) -> Self {
+        match self {
+            Self::NoneExceeds { runs, highest } => {
+                Self::NoneExceeds { runs, highest: highest / in_si }
+            }
+            Self::AllExceed { runs, lowest } => Self::AllExceed { runs, lowest: lowest / in_si },
+            Self::Separated { below, above } => {
+                Self::Separated { below: below / in_si, above: above / in_si }
+            }
+            Self::OneLevel { level } => Self::OneLevel { level: level / in_si },
+            other => other,
+        }
+    }
+}
+
 /// Bytes that are not a record: of text in the `file:line:column` form an editor can jump to, of a
 /// binary file with the offset of the first offending byte.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -477,6 +508,26 @@ fn nearest_suffix(nearest: Option<&str>) -> String {
     nearest.map_or_else(String::new, |nearest| format!("; nearest is \"{nearest}\""))
 }
 
+/// Most names that a message lists.
+const LISTED: usize = 20;
+
+/// Names in a message: the first twenty, and how many more there are.
+///
+/// ```
+/// let names = (1..=23).map(|n| n.to_string());
+/// assert!(slipstick::error::listed(names).ends_with("19, 20, … (3 more)"));
+/// ```
+#[must_use]
+pub fn listed(names: impl IntoIterator<Item = String>) -> String {
+    let mut names = names.into_iter();
+    let mut text = names.by_ref().take(LISTED).collect::<Vec<_>>().join(", ");
+    match names.count() {
+        0 => {}
+        more => text.push_str(&format!(", … ({more} more)")),
+    }
+    text
+}
+
 /// A found text as messages show it: [`visible`], cut to 40 characters.
 pub fn cut(text: &str) -> String {
     const LONGEST: usize = 40;
@@ -526,11 +577,15 @@ pub fn is_hidden(character: char) -> bool {
         )
 }
 
-/// The known word nearest to `word`, where the two are alike: at least half of it is the same.
+/// The known word nearest to `word`, where the two are alike: at least half of it is the same. None where
+/// the word itself is known, and stands in a wrong place.
 #[must_use]
 pub fn similar<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
     let (distance, nearest) =
         known.map(|known| (edit_distance(word, known), known)).min_by_key(|(d, _)| *d)?;
+    if distance == 0 {
+        return None;
+    }
     let longer = word.chars().count().max(nearest.chars().count());
     (2 * distance <= longer + 1).then(|| nearest.to_owned())
 }

@@ -334,6 +334,50 @@ impl Model {
         }
     }
 
+    /// The same model turned so that what is along a direction is along x, if it moves along that alone when it is pushed
+    /// so: along an axis, or of a structure that is the same along both. The width is that of an axis.
+    pub(crate) fn turned_to(&self, [x, y]: [f64; 2]) -> Option<Self> {
+        let turned = self.turned_to_y();
+        let (model, other) = if x == 0.0 { (&turned, self) } else { (self, &turned) };
+        let width_m = model.block.width_m.or(other.block.width_m);
+        let is_axis = x == 0.0 || y == 0.0;
+        let both = |of: &dyn Fn(&Self) -> f64| match is_axis {
+            true => of(model),
+            false => x * of(model) + y * of(other),
+        };
+        let lists = |of: &dyn Fn(&Self) -> Vec<f64>| -> Option<Vec<f64>> {
+            let own = of(model).into_iter().enumerate();
+            Some(own.map(|(i, _)| both(&|model| of(model)[i])).collect())
+        };
+        let initial = InitialState {
+            sliding_displacement_m: both(&|model| model.initial.sliding_displacement_m),
+            sliding_velocity_m_per_s: both(&|model| model.initial.sliding_velocity_m_per_s),
+            storey_displacement_m: lists(&Self::initial_storey_displacement_m),
+            storey_velocity_m_per_s: lists(&Self::initial_storey_velocity_m_per_s),
+        };
+        let block = Block { width_m, ..model.block };
+        if let Some(structure) = &self.structure {
+            let own = self.along_y().initial;
+            let start = [own.storey_displacement_m, own.storey_velocity_m_per_s];
+            if start.iter().flatten().flatten().any(|value| *value != 0.0) {
+                return None;
+            }
+            let block = Block { mass_kg: self.bare_block_kg(), ..block };
+            let initial = InitialState {
+                storey_displacement_m: None,
+                storey_velocity_m_per_s: None,
+                ..initial
+            };
+            let structure = structure.along([x, y])?;
+            let slider = self.slider.clone();
+            return Self::with_modes(block, slider, structure, self.gravity_m_per_s2, initial).ok();
+        }
+        let is_same = model.frame.stiffnesses_n_per_m == other.frame.stiffnesses_n_per_m
+            && (model.frame.damping == other.frame.damping || self.storeys() == 0);
+        let frame = model.frame.clone();
+        (is_axis || is_same).then(|| Self { block, frame, initial, along_y: None, ..self.clone() })
+    }
+
     /// The same model turned so that what is along y is along x.
     pub fn turned_to_y(&self) -> Self {
         let AlongY { stiffnesses_n_per_m, damping, width_m, initial } = self.along_y();
@@ -600,7 +644,7 @@ mod tests {
         assert_eq!(good.gap_towards(Direction::Negative), None);
         for (stop, quantity) in [
             (stop([None; 2], 1e5, 0.0), "stop gap_m"),
-            (stop([Some(0.1), Some(0.0)], 1e5, 0.0), "stop gap_m"),
+            (stop([Some(0.1), Some(-0.1)], 1e5, 0.0), "stop gap_m"),
             (stop([Some(f64::NAN), None], 1e5, 0.0), "stop gap_m"),
             (stop([Some(0.1); 2], 0.0, 0.0), "stop stiffness_n_per_m"),
             (stop([Some(0.1); 2], 1e5, -1.0), "stop damper_n_s_per_m"),

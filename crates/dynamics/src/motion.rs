@@ -183,12 +183,22 @@ impl GroundMotion {
         Self { horizontal_y_m_per_s2: None, ..self.clone() }
     }
 
+    /// What of it is along a unit vector as a motion along x, with the vertical.
+    pub(crate) fn along(&self, [x, y]: [f64; 2]) -> Self {
+        match &self.horizontal_y_m_per_s2 {
+            Some(own) if x == 0.0 => Self { horizontal_m_per_s2: own.clone(), ..self.along_x() },
+            Some(own) if y != 0.0 => {
+                let both = self.horizontal_m_per_s2.iter().zip(own.iter());
+                let both = both.map(|(a, b)| x * a + y * b).collect();
+                Self { horizontal_m_per_s2: Arc::new(both), ..self.along_x() }
+            }
+            _ => self.along_x(),
+        }
+    }
+
     /// What of it is along y as a motion along x, with the vertical.
     pub fn along_y(&self) -> Self {
-        match &self.horizontal_y_m_per_s2 {
-            Some(y) => Self { horizontal_m_per_s2: y.clone(), ..self.along_x() },
-            None => self.along_x(),
-        }
+        self.along([0.0, 1.0])
     }
 
     /// Its vertical component as a motion along x.

@@ -39,12 +39,12 @@ impl Severity {
 
 /// Declares the kinds: what each says, its variant, its stable name, its severity.
 macro_rules! kinds {
-    ($($(#[$doc:meta])+ $kind:ident $name:literal $severity:ident,)+) => {
+    ($($(#[doc = $doc:literal])+ $kind:ident $name:literal $severity:ident,)+) => {
         /// Kinds of notices.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[non_exhaustive]
         pub enum NoticeKind {
-            $($(#[$doc])+ $kind,)+
+            $($(#[doc = $doc])+ $kind,)+
         }
 
         impl NoticeKind {
@@ -56,6 +56,14 @@ macro_rules! kinds {
             pub const fn name(self) -> &'static str {
                 match self {
                     $(Self::$kind => $name,)+
+                }
+            }
+
+            /// What it means: one sentence or more.
+            #[must_use]
+            pub fn meaning(self) -> &'static str {
+                match self {
+                    $(Self::$kind => concat!($($doc),+).trim(),)+
                 }
             }
 
@@ -74,10 +82,14 @@ kinds! {
     // Reading a record or a measured test.
     /// The largest acceleration is none that an earthquake has.
     AbsurdPeak "absurd_peak" Severe,
+    /// The motion as it is used has a peak velocity, displacement or acceleration that no earthquake has.
+    AbsurdMotion "absurd_motion" Severe,
     /// A channel of the file was left out.
     ChannelSkipped "channel_skipped" Warning,
-    /// The largest value stands several times: the recorder was probably clipped.
+    /// Values are held at the extremes of the record: the recorder was probably clipped.
     Clipped "clipped" Warning,
+    /// The unit of times was taken from their size: a clock that counts since 1970.
+    ClockAssumed "clock_assumed" Warning,
     /// Times of blocks run away from equal steps.
     ClockDrift "clock_drift" Warning,
     /// A column was left out.
@@ -88,7 +100,7 @@ kinds! {
     DuplicateRows "duplicate_rows" Warning,
     /// The stated duration is not that of the values.
     DurationDiffers "duration_differs" Warning,
-    /// The first sample is not 0.
+    /// The first sample is above 1 % of the peak: the motion starts with a jump.
     FirstSampleNotZero "first_sample_not_zero" Warning,
     /// The first sample is not 0 and up to 1 % of the peak.
     FirstSampleSmall "first_sample_small" Note,
@@ -98,6 +110,8 @@ kinds! {
     HeaderDiffers "header_differs" Warning,
     /// Horizontal and vertical components differ in length.
     LengthsDiffer "lengths_differ" Warning,
+    /// The samples lie further apart than those of any record: times that are no seconds.
+    LongStep "long_step" Severe,
     /// The mean was taken off the values.
     MeanRemoved "mean_removed" Note,
     /// The modes of the structure lack some of its mass, which moves with the block.
@@ -108,6 +122,8 @@ kinds! {
     MissingValues "missing_values" Warning,
     /// The channel has no intensity measures.
     NoMeasures "no_measures" Warning,
+    /// No value is below 0 and the last is above it: perhaps a spectrum.
+    OneSided "one_sided" Severe,
     /// Blocks overlap in time.
     Overlap "overlap" Warning,
     /// The stated peak is not that of the values.
@@ -118,7 +134,7 @@ kinds! {
     QuantityDiffers "quantity_differs" Warning,
     /// The values were read along the lines.
     ReadAlongLines "read_along_lines" Note,
-    /// The record has a velocity at its end.
+    /// The record has a velocity at its end above 5 % of its peak velocity.
     RecordDrift "record_drift" Warning,
     /// The same file was named more than once.
     RecordNamedTwice "record_named_twice" Warning,
@@ -128,21 +144,25 @@ kinds! {
     SameMotion "same_motion" Warning,
     /// A factor that the file states was not applied.
     ScaleUnused "scale_unused" Warning,
-    /// The stated times were replaced by the given step.
+    /// The times of the file were replaced by the step that was given.
     TimesReplaced "times_replaced" Warning,
     /// The times are rounded.
     TimesRounded "times_rounded" Warning,
     /// The file ends before what it announces.
     Truncated "truncated" Severe,
+    /// A vertical component, by its file, is run as a horizontal one.
+    VerticalComponent "vertical_component" Severe,
+    /// A column's name states no unit; one was taken that makes its peak that of an earthquake.
+    UnitsAssumed "units_assumed" Severe,
 
     // The model and the motion under it.
-    /// Samples lie too far apart for the highest mode.
+    /// The Nyquist frequency of the motion is below five times that of the highest mode.
     CoarseSampling "coarse_sampling" Warning,
     /// The factor on a record lies far from 1.
     FactorFar "factor_far" Warning,
-    /// The structure's damping is higher than that of structures.
+    /// A damping ratio above 0.3: perhaps meant in percent.
     HighDamping "high_damping" Warning,
-    /// The friction is higher than that of sliders.
+    /// A coefficient of friction above 0.5: perhaps meant in percent.
     HighFriction "high_friction" Warning,
     /// An inner surface has more friction than an outer one.
     InnerFrictionHigh "inner_friction_high" Warning,
@@ -154,7 +174,8 @@ kinds! {
     // A response.
     /// The check does not confirm the response.
     CheckFailed "check_failed" Severe,
-    /// A decision between sticking and sliding had almost no margin.
+    /// A decision between sticking and sliding had a margin below 1e-6: a slightly different motion may
+    /// tell another story.
     CloseCall "close_call" Warning,
     /// Contact is lost for a time.
     ContactLost "contact_lost" Severe,
@@ -174,6 +195,12 @@ kinds! {
     TravelReached "travel_reached" Warning,
 
     // Many runs, and what is fitted to them.
+    /// Rules of a code are used on a target spectrum that may be another's.
+    CodeAssumed "code_assumed" Warning,
+    /// Property modification factors are milder than those of the code.
+    MildFactors "mild_factors" Warning,
+    /// The displacement of the equivalent-lateral-force procedure is beyond the travel or the gap.
+    LateralBeyondTravel "lateral_beyond_travel" Severe,
     /// A chosen value lies at an end of its range.
     EdgeOfRange "edge_of_range" Warning,
     /// Some draws of a bootstrap have no fit.
@@ -238,6 +265,19 @@ impl NoticeKind {
     }
 }
 
+/// Every kind with its severity and what it means, the gravest first, as a table of the book.
+#[must_use]
+pub fn table() -> String {
+    let mut kinds = NoticeKind::ALL.to_vec();
+    kinds.sort_by_key(|kind| (core::cmp::Reverse(kind.severity()), kind.name()));
+    let mut text = "| notice | severity | what it means |\n|---|---|---|\n".to_owned();
+    for kind in kinds {
+        let (name, severity, meaning) = (kind.name(), kind.severity().name(), kind.meaning());
+        text.push_str(&format!("| `{name}` | {severity} | {meaning} |\n"));
+    }
+    text
+}
+
 impl fmt::Display for NoticeKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(self.name())
@@ -253,13 +293,15 @@ pub struct Notice {
     pub time_s: Option<f64>,
     /// One sentence.
     pub message: String,
+    /// Whether it is severe, however much its kind weighs.
+    pub is_severe: bool,
 }
 
 impl Notice {
     /// A notice of no one time.
     #[must_use]
     pub fn new(kind: NoticeKind, message: impl Into<String>) -> Self {
-        Self { kind, time_s: None, message: message.into() }
+        Self { kind, time_s: None, message: message.into(), is_severe: false }
     }
 
     /// The same at a time.
@@ -268,10 +310,16 @@ impl Notice {
         Self { time_s: Some(time_s), ..self }
     }
 
+    /// The same as a severe one, where that holds.
+    #[must_use]
+    pub fn severe_where(self, is_severe: bool) -> Self {
+        Self { is_severe: self.is_severe || is_severe, ..self }
+    }
+
     /// How much it weighs.
     #[must_use]
     pub const fn severity(&self) -> Severity {
-        self.kind.severity()
+        if self.is_severe { Severity::Severe } else { self.kind.severity() }
     }
 
     /// Whether it says how something was read and changes no decision.
@@ -311,6 +359,17 @@ mod tests {
             assert_eq!(NoticeKind::from_name(&snake), Some(*kind));
         }
         assert_eq!(NoticeKind::from_name("first_sample"), None);
+    }
+
+    /// `cargo xtask notices --write` writes it.
+    #[test]
+    fn the_book_has_every_notice() {
+        let page = include_str!("../../../book/src/generated/notices.md");
+        assert_eq!(page, table());
+        for kind in NoticeKind::ALL {
+            assert!(page.contains(&format!("| `{}` |", kind.name())), "{kind}");
+            assert!(kind.meaning().len() > 10 && !kind.meaning().contains('|'), "{kind}");
+        }
     }
 
     #[test]

@@ -590,8 +590,8 @@ impl HistoryAlongY {
 
 /// What a response in two horizontal directions has besides. [`Response::demands`] are then of resultants,
 /// the norm over x and y at each instant: [`Demands::residual_sliding_displacement_m`] is a norm, largest and
-/// smallest `s` are those along x. Where nothing moves along one of the axes they are those of the solver in one
-/// direction, the residual with its sign, and the modes and reversals are its own.
+/// smallest `s` are those along x, and a block that passes rest has not reversed. So it is of a motion along a line too,
+/// which is solved in one direction.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct InPlane {
     /// Demands along x and along y; counts, times, path and what else belongs to no axis are 0 or absent.

@@ -266,17 +266,34 @@ impl Slider {
         self.surfaces().iter().enumerate().filter_map(of).chain(whole)
     }
 
-    /// The loop of the slider pushed slowly, as surfaces in series: the mean coefficient over both directions and
-    /// the stiffness over the weight in 1/m of each. None where friction follows the speed.
-    pub fn slow_loop(&self, normal_n: f64, weight_n: f64) -> Option<Vec<[f64; 2]>> {
-        let of = |surface: &Surface| [surface.friction, surface.curvature()];
+    /// The slider pushed slowly, as surfaces in series: of one surface the mean coefficient over both directions
+    /// and the weight over its stiffness as radius. None where friction follows the speed.
+    pub fn slow_surfaces(&self, normal_n: f64, weight_n: f64) -> Option<Vec<Surface>> {
         match &self.bearing {
-            Bearing::InSeries(series) => Some(series.surfaces().iter().map(of).collect()),
+            Bearing::InSeries(series) => Some(series.surfaces().to_vec()),
             Bearing::Surface { friction, .. } => friction.rate().is_none().then(|| {
                 let [positive, negative] = self.coefficients()[1];
-                vec![[0.5 * (positive + negative), self.stiffness_n_per_m(normal_n) / weight_n]]
+                let stiffness_n_per_m = self.stiffness_n_per_m(normal_n);
+                let is_sprung = stiffness_n_per_m > 0.0;
+                vec![Surface {
+                    radius_m: is_sprung.then(|| weight_n / stiffness_n_per_m),
+                    friction: 0.5 * (positive + negative),
+                    travel_m: None,
+                }]
             }),
         }
+    }
+
+    /// The least displacement in m beyond which the isolators cannot or are not meant to go, and what is there: the
+    /// end of their travel, a stop, or the gap that the detailing allows.
+    #[must_use]
+    pub fn reach_m(&self) -> Option<(&'static str, f64)> {
+        let travel = self.series().and_then(SurfacesInSeries::travel_m);
+        let [positive, negative] = self.stop_m();
+        let stop = positive.into_iter().chain(negative).reduce(f64::min);
+        let all = [("travel", travel), ("gap to the stop", stop), ("gap", self.gap_m())];
+        let given = all.into_iter().filter_map(|(what, reach_m)| Some((what, reach_m?)));
+        given.reduce(|a, b| if b.1 < a.1 { b } else { a })
     }
 
     /// The same held by a coefficient of friction, on a spring with the stiffness that it has under a normal

@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
+use slipstick::error::listed;
 use slipstick::record::{
     self, Channel, Format, Options, Quantity, Record, Sampling, Units, write_at2, write_csv,
     write_smc,
@@ -39,7 +40,7 @@ pub fn open_record(path: &Path, options: &RecordOptions) -> Result<Record, FileE
 }
 
 /// What every file of Parquet starts with.
-const PARQUET: &[u8] = b"PAR1";
+pub(crate) const PARQUET: &[u8] = b"PAR1";
 
 /// The record in the bytes of a file. A table of Parquet is read as CSV with the same columns.
 pub(crate) fn understood(
@@ -126,8 +127,8 @@ fn no_channel(path: &Path, record: &Record, expected: String) -> FileError {
     let describe = |(i, c): (usize, &Channel)| {
         format!("{} {:?} ({})", i + 1, c.name, c.units.quantity().name())
     };
-    let channels: Vec<_> = record.channels.iter().enumerate().map(describe).collect();
-    FileError::Channel { path: path.to_owned(), expected, channels: channels.join(", ") }
+    let channels = listed(record.channels.iter().enumerate().map(describe));
+    FileError::Channel { path: path.to_owned(), expected, channels }
 }
 
 /// Formats that are written.

@@ -63,11 +63,13 @@ impl OpenJob {
             sources: Vec::new(),
         };
         let loaded = match record {
-            Some(record) => load_record(record)?,
+            Some(record) => with_vertical_told(record, load_record(record)?),
             None => match analysis.required_motion()? {
                 MotionSource::Record(source) => {
                     let record = request(source, folder);
-                    load_record(&record).map_err(|error| of_model(&analysis, &record, error))?
+                    let loaded = load_record(&record);
+                    let loaded = loaded.map_err(|error| of_model(&analysis, &record, error))?;
+                    with_vertical_told(&record, loaded)
                 }
                 source => match described(source).map_err(|e| analysis.motion_error(&e))? {
                     Some((motion, description)) => made(motion, description),
@@ -174,6 +176,16 @@ pub fn record_path(
         }
         _ => None,
     }
+}
+
+/// With a notice of each file along the surface that is a vertical component.
+fn with_vertical_told(record: &RecordRequest, motion: LoadedMotion) -> LoadedMotion {
+    let name = |path: &Path| path.display().to_string();
+    let (x, y) = (name(&record.path), record.along_y.as_ref().map(|y| name(&y.path)));
+    let channel_y = record.along_y.as_ref().and_then(|y| y.channel.as_deref());
+    let along_y = y.as_deref().map(|path| (path, channel_y));
+    let loaded = motion.loaded.with_vertical_told((&x, record.channel.as_deref()), along_y);
+    LoadedMotion { loaded, ..motion }
 }
 
 /// What is wrong with the record of a model, at the key that asks for it where the model can be

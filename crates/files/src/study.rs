@@ -16,7 +16,7 @@ mod shard;
 mod summary;
 
 pub use merge::{Merged, conclude, merge};
-pub use open::{OpenStudy, read_target};
+pub use open::{OpenStudy, TARGET, read_target};
 pub use part::{Checks, part_rows};
 pub use parts::{REPORT as STUDY_REPORT, clear, has_parts, kept_runs};
 pub use repeat::quoted;

@@ -11,7 +11,7 @@ use slipstick::record::Units;
 use slipstick::requests::{Answer, Kind, On, Runs};
 use slipstick::units::Dimension;
 use slipstick_files::{
-    OpenJob, ReadRecords, SuiteError, SuiteRequest, files_of_runs, limit_of_ida, read_runs,
+    OpenJob, ReadRecords, SuiteError, SuiteRequest, TARGET, files_of_runs, limit_of_ida, read_runs,
     read_target,
 };
 use slipstick_report::DisplayUnits;
@@ -195,8 +195,7 @@ pub(crate) fn suite(
 ) -> PyResult<Assessment> {
     let asked = asked(py, Kind::Suite.name(), given)?;
     let target = target.map(|path| {
-        let expected = "a CSV with the columns period_s and sa_g";
-        let read = read_target(&path).map_err(|found| of_argument(py, "target", expected, &found));
+        let read = read_target(&path).map_err(|found| of_argument(py, "target", TARGET, &found));
         read.map(|(spectrum, _)| (path.display().to_string(), spectrum))
     });
     let target = target.transpose()?;

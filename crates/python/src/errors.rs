@@ -165,7 +165,7 @@ pub(crate) fn of_solve(py: Python<'_>, error: &SolveError) -> PyErr {
     let time_s = match error {
         SolveError::NotFinite { time_s }
         | SolveError::TooManyEvents { time_s, .. }
-        | SolveError::EndOfTravel { time_s }
+        | SolveError::EndOfTravel { time_s, .. }
         | SolveError::NoConvergence { time_s, .. } => Some(*time_s),
         _ => None,
     };

@@ -74,6 +74,9 @@ impl Motion {
 
     fn derived(py: Python<'_>, loaded: Result<Loaded, MotionError>, of: &Self) -> PyResult<Self> {
         let loaded = loaded.map_err(|error| of_motion(py, &error))?;
+        // What was said of the motion that it comes from is not said again.
+        let known = |notice: &&Notice| of.0.warnings.iter().all(|known| known.kind != notice.kind);
+        warn_severe(py, &loaded.warnings.iter().filter(known).cloned().collect::<Vec<_>>())?;
         Ok(Self(LoadedMotion { loaded, sources: of.0.sources.clone() }))
     }
 
@@ -739,7 +742,7 @@ impl Motion {
         let warning = |(name, time_s, message): (String, Option<f64>, String)| {
             let kind = NoticeKind::from_name(&name)
                 .ok_or_else(|| of_argument(py, "warnings", "a known kind of warning", &name))?;
-            Ok(Notice { kind, time_s, message })
+            Ok(Notice { time_s, ..Notice::new(kind, message) })
         };
         let warnings = warnings.into_iter().map(warning).collect::<PyResult<_>>()?;
         let (factor, along_x, along_y) = origin;

@@ -259,6 +259,14 @@ impl Response {
         Ok(force.unwrap_or_default().into_pyarray(py))
     }
 
+    /// The same along y; empty in one direction.
+    fn _slider_force_y<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        self.history()?;
+        let model = &self.job()?.job.analysis.model;
+        let force = self.response().map(|response| response.slider_force_y_n(model));
+        Ok(force.unwrap_or_default().into_pyarray(py))
+    }
+
     /// Static and kinetic friction in N under the weight, each towards +x and −x.
     fn _friction_limits(&self) -> [[f64; 2]; 2] {
         let model = &self.model.get().analysis.model;

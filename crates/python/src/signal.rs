@@ -18,8 +18,8 @@ use slipstick::record::Units;
 use slipstick::requests::{code_spectrum, periods};
 use slipstick::units::Dimension;
 use slipstick_files::{
-    LoadedMotion, RecordOptions, RecordRequest, Wanted, WrittenFormat, channels, load_record,
-    open_record, read_target, write_whole,
+    LoadedMotion, RecordOptions, RecordRequest, TARGET, Wanted, WrittenFormat, channels,
+    load_record, open_record, read_target, write_whole,
 };
 use slipstick_report::records::{fourier_table, spectrum_table};
 
@@ -231,9 +231,7 @@ fn target_of(py: Python<'_>, target: &Bound<'_, PyAny>) -> PyResult<TargetSpectr
             .map_err(|error| of_choice(py, &ChoiceError { what: "spectrum".to_owned(), ..error }));
     }
     if let Ok(path) = target.extract::<PathBuf>() {
-        let expected = "a CSV with the columns period_s and sa_g";
-        let read =
-            read_target(&path).map_err(|found| of_argument(py, "spectrum", expected, &found));
+        let read = read_target(&path).map_err(|found| of_argument(py, "spectrum", TARGET, &found));
         return read.map(|(spectrum, _)| spectrum);
     }
     let column = |name: &str| {

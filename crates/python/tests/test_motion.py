@@ -20,11 +20,11 @@ def test_arrays_are_judged_as_files_are(tmp_path: Path) -> None:
     values = [0.1, -0.4, 0.1]
     path = tmp_path / "record.txt"
     path.write_text("\n".join(map(str, values)))
-    read, made = ss.read_record(path, units="g", dt=0.5), ss.Motion(values, dt=0.5, units="g")
+    read, made = ss.read_record(path, units="g", dt=0.05), ss.Motion(values, dt=0.05, units="g")
     assert kinds(made) == kinds(read) == ["first_sample_not_zero", "record_drift"]
     assert made.warnings == read.warnings and made == read
     with pytest.warns(ss.SlipstickWarning, match="is 30.0000 g: check"):
-        strong = ss.Motion([0.0, 30.0, -30.0, 0.0], dt=0.5, units="g")
+        strong = ss.Motion([0.0, 30.0, -30.0, 0.0], dt=0.05, units="g")
     assert kinds(strong)[0] == "absurd_peak" and "absurd peak" in repr(strong)
     assert strong._repr_html_().startswith("<p><b>Severe:</b>")
     with pytest.warns(ss.SlipstickWarning, match="check the units"):
@@ -35,7 +35,7 @@ def test_arrays_are_judged_as_files_are(tmp_path: Path) -> None:
 
 
 def test_what_is_noticed_is_that_of_the_scaled_motion() -> None:
-    motion = ss.Motion([0.1, -0.4, 0.1], dt=0.5, units="m/s2")
+    motion = ss.Motion([0.1, -0.4, 0.1], dt=0.05, units="m/s2")
     half = motion.scaled(0.5)
     assert (half.factor, half.scaled(pga="0.4 m/s2").factor) == (0.5, pytest.approx(1.0))
     assert "0.1000 m/s²" in motion.warnings[0][1] and "0.0500 m/s²" in half.warnings[0][1]
@@ -45,10 +45,20 @@ def test_what_is_noticed_is_that_of_the_scaled_motion() -> None:
     for wrong, told in [
         (lambda: motion.scaled(np.nan), "^factor: expected a finite factor"),
         (lambda: motion.scaled(pga="-1 g"), "^pga: expected a finite peak > 0"),
-        (lambda: ss.Motion([0, 0], dt=1, units="g").scaled(pga="1 g"), "^pga: expected a motion that is not zero"),
+        (lambda: ss.Motion([0, 0], dt=0.1, units="g").scaled(pga="1 g"), "^pga: expected a motion that is not zero"),
     ]:
         with pytest.raises(ss.InputError, match=told):
             wrong()
+
+
+def test_what_no_earthquake_has_is_told_however_it_comes() -> None:
+    motion = ss.Motion(0.18 * np.sin(0.3 * np.arange(400)) * np.sin(np.pi * np.arange(400) / 399), dt=0.01, units="g")
+    assert not {"absurd_motion", "long_step"} & set(kinds(motion))
+    with pytest.warns(ss.SlipstickWarning, match="as no earthquake has"):
+        strong = motion.scaled(300)
+    assert "absurd_motion" in kinds(strong) and "absurd_motion" not in kinds(strong.scaled(1 / 300))
+    with pytest.warns(ss.SlipstickWarning, match="10 s apart"):
+        assert "long_step" in kinds(ss.Motion([0.0, 0.1, -0.1, 0.0], dt=10, units="g"))
 
 
 def test_arrays_that_have_gaps_or_units() -> None:
@@ -61,9 +71,9 @@ def test_arrays_that_have_gaps_or_units() -> None:
     unit = pytest.importorskip("pint").UnitRegistry()
     values = np.array([0.0, 20.0, -20.0, 0.0])
     quantity = ss.Motion(values * unit("cm/s**2"), dt=500 * unit.ms)
-    assert quantity == ss.Motion(values, dt=0.5, units="cm/s2")
+    assert quantity == ss.Motion(values, dt=0.05, units="cm/s2")
     with pytest.raises(ss.InputError, match="^units: expected none beside a quantity"):
-        ss.Motion(values * unit("cm/s**2"), dt=0.5, units="g")
+        ss.Motion(values * unit("cm/s**2"), dt=0.05, units="g")
 
 
 def test_a_suite_takes_what_a_record_takes() -> None:
@@ -104,7 +114,7 @@ def test_motions_in_two_directions(tmp_path: Path) -> None:
     for wrong, told in [
         (lambda: pulse().rotated("30 deg"), "two horizontal directions"),
         (lambda: both.rotated(30), "^angle: expected an angle with its unit"),
-        (lambda: ss.Motion([0.0, 1.0], y=[0.0], dt=1, units="g"), "^y: expected 2 values"),
+        (lambda: ss.Motion([0.0, 1.0], y=[0.0], dt=0.1, units="g"), "^y: expected 2 values"),
     ]:
         with pytest.raises(ss.InputError, match=told):
             wrong()
@@ -140,6 +150,6 @@ def test_what_a_result_is_worth_comes_first() -> None:
     assert page.startswith("<p><b>The certificate holds</b></p><p><b>Severe:</b> ")
     quiet = ss.run(block(), pulse())
     assert repr(quiet) == "<slipstick.Response holds; 'model', 2 events>"
-    found = ss.suite(block(), {"a": ss.Motion([0.1, -0.1, 0.1], dt=0.5, units="g")})
+    found = ss.suite(block(), {"a": ss.Motion([0.1, -0.1, 0.1], dt=0.05, units="g")})
     assert repr(found).startswith("<slipstick.Assessment warning: ") and "first sample not zero" in repr(found)
     assert found._repr_html_().startswith("<p><b>Warning:</b> ")

@@ -244,3 +244,28 @@ def test_a_suite_of_pairs_is_read_at_once() -> None:
         ss.read_suite(X, y=Y[:1], **READ)
     with pytest.raises(Exception, match="expected the other component of .*, found the same motion"):
         ss.read_suite(X, y=X, **READ)
+
+
+def test_figures_in_two_directions_say_which_axis() -> None:
+    pytest.importorskip("matplotlib").use("Agg")
+    response = ss.run(model(), next(iter(pairs().values())))
+    sliding, acceleration, loop = response.plot()
+    assert [line.get_label() for line in sliding.lines][::2] == ["along x", "along y"]
+    assert acceleration.get_ylabel() == "acceleration along x [g]"
+    assert [line.get_label() for line in acceleration.lines] == ["table", "block", "floor 1"]
+    assert [line.get_label() for line in loop.lines] == ["along x", "along y"]
+    knots = response.knots
+    top = response.plot.acceleration(along="y").lines[2].get_ydata()
+    assert list(top) == list(knots["storey1_acceleration_y_m_per_s2"] / 9.80665)
+    both = response.plot.history(along="resultant").lines[0].get_ydata()
+    assert np.allclose(both, 1e3 * np.hypot(knots["sliding_displacement_m"], knots["sliding_displacement_y_m"]))
+    assert response.plot.drift(along="y").get_ylabel() == "drift along y [mm]"
+    with pytest.raises(ValueError, match="^along: expected one of x, y, both"):
+        response.plot.loop(along="resultant")
+
+
+def test_a_structure_by_its_modes_is_drawn_by_the_names_of_its_points() -> None:
+    pytest.importorskip("matplotlib").use("Agg")
+    response = ss.run(ss.Model.read(EXAMPLES / "structures" / "building.toml"))
+    assert [line.get_label() for line in response.plot.drift().lines] == ["First", "Second", "Roof"]
+    assert [line.get_label() for line in response.plot.acceleration().lines] == ["table", "block", "Roof"]

@@ -6,11 +6,14 @@
 //! many names. A first line of two numbers, count and step, is understood where what follows shows
 //! that it is one. Without header and times, three or more values a line are one series.
 
+mod clock;
 mod columns;
 mod header;
 mod layout;
 mod style;
 mod table;
+mod target;
+mod words;
 
 use super::text::Text;
 use super::{
@@ -20,35 +23,47 @@ use super::{
 pub(super) use columns::read as read_columns;
 pub use columns::{Column, Columns};
 pub use header::bracket;
-use header::{Header, Unit};
+use header::{Header, Name, Unit, is_comment};
 use layout::Layout;
 use slipstick_dynamics::notice::{Notice, NoticeKind};
 use table::Table;
+pub(super) use target::read as read_target;
+
+/// Most columns of a record: each that is motion is a channel, of which much is computed.
+const MAX_COLUMNS: usize = 1000;
 
 /// Reads the file; channels are named by the header, else `column 1`, `column 2`, ….
 pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError> {
     let header = Header::of(text)?;
     let table = Table::read(text, &header)?;
-    let layout = layout::of(text, &header, &table)?;
-    let (series, mut warnings) = series(text, &header, &table, &layout, options.units)?;
     let given_s = table.given_step(text, options.dt_s)?;
+    let layout = layout::of(text, &header, &table, given_s)?;
+    let (series, mut warnings) = series(text, &header, &table, &layout, options.units)?;
     let missing_units = series.iter().any(|s| s.units.is_none());
-    if missing_units || (layout.times_s.is_none() && given_s.is_none()) {
-        let expected = keys_to_add(missing_units, layout.times_s.is_none() && given_s.is_none());
+    let missing_step = layout.times_s.is_none() && given_s.is_none();
+    if missing_units || missing_step {
+        let mut expected = keys_to_add(missing_units, missing_step);
+        if layout.index.is_some() && missing_step {
+            expected.push_str("; the first column counts its rows, which are no times");
+        }
         return Err(table.error_at_start(text, expected));
     }
-    let sampling = match (layout.times_s, given_s) {
-        (Some(times_s), given_s) => {
-            let (sampling, doubts) = sampling::of_times(times_s, given_s).map_err(|own| {
-                let given_s = given_s.unwrap_or_default();
-                let expected = format!("times at the step given, {given_s} s (leave it out)");
-                table.error_found(text, expected, &own)
-            })?;
+    let sampling = match layout.times_s {
+        Some(times_s) => {
+            let (sampling, doubts) = sampling::of_times(times_s, given_s);
             warnings.extend(doubts);
             sampling
         }
-        (None, given_s) => Sampling::Dt(given_s.unwrap_or_default()),
+        None => Sampling::Dt(given_s.unwrap_or_default()),
     };
+    if let Sampling::Times(times_s) = &sampling
+        && times_s.windows(2).all(|t| t[0] < t[1])
+        && series.iter().all(|series| never_returns(&series.values))
+    {
+        let expected =
+            "a time history, not a spectrum: one that is below 0 at times, or 0 at its end";
+        return Err(table.error_found(text, expected, "uneven steps and no value below 0"));
+    }
     let channel = |series: Series| {
         let units = series.units?;
         Some(Channel {
@@ -83,7 +98,7 @@ fn series(
     layout: &Layout,
     given: Option<Units>,
 ) -> Result<(Vec<Series>, Vec<Notice>), RecordError> {
-    let mut warnings = Vec::new();
+    let mut warnings = layout.notices.clone();
     if layout.wrapped {
         let message = format!(
             "{} values a line without header and times were read along the lines as one series",
@@ -93,11 +108,20 @@ fn series(
         let (name, values) = ("column 1".to_owned(), table.cells.clone());
         return Ok((vec![Series { name, values, units: given }], warnings));
     }
+    if table.columns > MAX_COLUMNS {
+        let expected = format!("at most {MAX_COLUMNS} columns");
+        return Err(table.error_found(text, expected, &table.columns.to_string()));
+    }
     let mut series = Vec::new();
-    for column in (0..table.columns).filter(|&c| Some(c) != layout.time_column) {
+    let offsets = offsets(text);
+    let is_motion =
+        |c: &usize| ![layout.time_column, layout.index, table.clock[1]].contains(&Some(*c));
+    for column in (0..table.columns).filter(is_motion) {
         let named = layout.names.as_ref().map(|names| &names[column]);
         let name = named.map_or_else(|| format!("column {}", column + 1), |n| n.text.clone());
-        let units = match (named.and_then(|n| n.unit), given) {
+        let unit = named.and_then(|named| named.unit);
+        let unit = if named.is_some_and(Name::is_time) { Some(Unit::Other) } else { unit };
+        let units = match (unit, given) {
             (Some(Unit::Other | Unit::Time(_)), _) => {
                 let message = format!(
                     "the column \"{name}\" is no acceleration, velocity or displacement: skipped"
@@ -112,9 +136,20 @@ fn series(
                 return Err(header.error(text, expected, &name));
             }
             (Some(Unit::Motion(stated)), _) => Some(stated),
-            (None, given) => given,
+            (None, None) if named.is_some_and(Name::is_ground_acceleration) => {
+                let (units, notice) = units_of_ground(&name, table.column(column));
+                warnings.push(notice);
+                units
+            }
+            (_, given) => given,
         };
-        let values = table.column(column).collect();
+        let mut values: Vec<f64> = table.column(column).collect();
+        if let Some((_, offset)) = offsets.iter().find(|(of, _)| *of == name) {
+            values.iter_mut().for_each(|value| *value -= offset);
+            let message =
+                format!("the offset of \"{name}\" that the file states, {offset}, was taken off");
+            warnings.push(Notice::new(NoticeKind::MeanRemoved, message));
+        }
         series.push(Series { name, values, units });
     }
     if series.is_empty() {
@@ -122,4 +157,52 @@ fn series(
         return Err(header.error(text, expected, "none"));
     }
     Ok((series, warnings))
+}
+
+/// What K-NET's table says is to be taken off its columns: `#Offset`, then names, then numbers.
+fn offsets(text: &Text) -> Vec<(String, f64)> {
+    let mut lines = text.lines();
+    let is_knet = |title: &str| title.starts_with("#K-NET") || title.starts_with("#KiK-net");
+    if !lines.next().is_some_and(|line| is_knet(&line.trimmed())) {
+        return vec![];
+    }
+    let mut cells = lines
+        .take_while(is_comment)
+        .skip_while(|line| line.trimmed() != "#Offset")
+        .skip(1)
+        .map(|line| line.trimmed().trim_start_matches('#').to_owned());
+    let (names, values) = (cells.next().unwrap_or_default(), cells.next().unwrap_or_default());
+    let number = |(name, value): (&str, &str)| Some((name.to_owned(), value.parse().ok()?));
+    names.split(',').zip(values.split(',')).filter_map(number).collect()
+}
+
+/// Fewest values that look like a spectrum.
+const FEWEST_ORDINATES: usize = 5;
+
+/// Whether values are at least as large as 0, leave it once and never come back, and differ: a spectrum's,
+/// and no motion's, which ends at rest.
+fn never_returns(values: &[f64]) -> bool {
+    values.len() >= FEWEST_ORDINATES
+        && values.iter().any(|value| *value != values[0])
+        && values.iter().all(|value| *value >= 0.0)
+        && values.iter().skip_while(|value| **value == 0.0).all(|value| *value > 0.0)
+        && values.last().is_some_and(|value| *value > 0.0)
+}
+
+/// Above this peak values of a ground acceleration are no multiples of g, below it hardly m/s².
+const LARGEST_IN_G: f64 = 2.0;
+
+/// Units of a column that is named as the ground acceleration of Eurocode 8 and states none.
+fn units_of_ground(name: &str, values: impl Iterator<Item = f64>) -> (Option<Units>, Notice) {
+    let peak = values.fold(0.0_f64, |peak, value| peak.max(value.abs()));
+    let symbols = if peak > LARGEST_IN_G { ["m/s2", "g"] } else { ["g", "m/s2"] };
+    let [units, other] = symbols.map(Units::parse);
+    let shown = |units: Option<Units>| units.map_or_else(String::new, |units| units.to_string());
+    let message = format!(
+        "the column \"{name}\" has the name of the ground acceleration of Eurocode 8, which states no \
+         unit: its values, up to {peak}, were taken in {}; if they are in {}, give units",
+        shown(units),
+        shown(other)
+    );
+    (units, Notice::new(NoticeKind::UnitsAssumed, message))
 }

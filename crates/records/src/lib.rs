@@ -47,6 +47,7 @@ mod write;
 use std::collections::BTreeMap;
 
 use slipstick_dynamics::error::{MotionError, RecordError};
+use slipstick_dynamics::motion::target::TargetSpectrum;
 use slipstick_dynamics::motion::{GroundMotion, MAX_STEP_S, Series};
 use slipstick_dynamics::notice::Notice;
 
@@ -54,7 +55,7 @@ pub use delimited::bracket;
 pub use delimited::{Column, Columns};
 pub use origin::Origin;
 pub use quality::judged;
-pub use quality::{REST_KINDS, rest};
+pub use quality::{REST_KINDS, beyond_earthquakes, rest};
 pub use sampling::of_times;
 use text::Text;
 pub use unit::{Quantity, Units};
@@ -395,6 +396,15 @@ fn read_text(text: &Text, options: &Options) -> Result<Record, RecordError> {
 /// word, a row of another length, fewer than two rows.
 pub fn columns(source_name: &str, bytes: &[u8]) -> Result<Columns, RecordError> {
     delimited::read_columns(&Text::new(source_name, bytes)?)
+}
+
+/// Reads a target spectrum: a table with a column of periods and one of spectral accelerations.
+///
+/// # Errors
+/// [`RecordError`] for what is no such table, an acceleration without a unit, periods that do not rise
+/// and accelerations that are not above 0.
+pub fn target_spectrum(source_name: &str, bytes: &[u8]) -> Result<TargetSpectrum, RecordError> {
+    delimited::read_target(&Text::new(source_name, bytes)?)
 }
 
 /// Numbers the channels that share a name, so that a name picks one channel or none.

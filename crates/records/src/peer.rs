@@ -25,7 +25,11 @@ pub(super) fn recognises(text: &Text) -> bool {
 }
 
 fn count_line<'a>(text: &Text<'a>) -> Option<Line<'a>> {
-    text.lines().take(HEADER_LINES).find(|line| line.find("NPTS", 0).is_some())
+    // Comments of delimited text may state the count too.
+    let is_marked =
+        |line: &Line| matches!(line.bytes.trim_ascii_start().first(), Some(b'#' | b'%'));
+    let mut lines = text.lines().take(HEADER_LINES).filter(|line| !is_marked(line));
+    lines.find(|line| line.find("NPTS", 0).is_some())
 }
 
 /// Reads the file; its one channel is named by its component.

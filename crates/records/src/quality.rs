@@ -10,10 +10,30 @@ use super::{Channel, Quantity, Sampling, Units};
 /// Values at a peak that follow one another unchanged: fewer happen by rounding.
 const CLIPPED_RUN: usize = 4;
 
-/// The warnings of [`rest`]: what is said of a motion as it is used, scaled or processed, rather
-/// than of the file.
-pub const REST_KINDS: [NoticeKind; 3] =
-    [NoticeKind::FirstSampleNotZero, NoticeKind::FirstSampleSmall, NoticeKind::RecordDrift];
+/// The warnings of [`rest`] and of [`beyond_earthquakes`]: what is said of a motion as it is used,
+/// scaled or processed, rather than of the file.
+pub const REST_KINDS: [NoticeKind; 4] = [
+    NoticeKind::FirstSampleNotZero,
+    NoticeKind::FirstSampleSmall,
+    NoticeKind::RecordDrift,
+    NoticeKind::AbsurdMotion,
+];
+
+/// Longest usual step of a record, in s: that of the coarsest recorders is 0.02 s.
+const LONGEST_STEP_S: f64 = 0.1;
+
+/// Peak velocity in m/s and displacement in m that no earthquake has; the largest that were recorded are
+/// some 5 m/s and 10 m.
+const LARGEST_VELOCITY_M_PER_S: f64 = 10.0;
+const LARGEST_DISPLACEMENT_M: f64 = 100.0;
+
+/// Fewest values of which it means something that none is below 0.
+const LEAST_ONE_SIDED: usize = 10;
+
+/// Shares of the range within which a plateau lies, and how much steeper than a rounded top the values
+/// run into it: of a parabola that is 1 to 2 whatever the share.
+const PLATEAU_SHARES: [f64; 3] = [0.001, 0.003, 0.01];
+const PLATEAU_EDGE: f64 = 4.0;
 
 /// Share of the peak up to which a first sample is worth a note only.
 const SMALL_FIRST_SAMPLE: f64 = 0.01;
@@ -33,7 +53,7 @@ pub fn rest(
     pgv_m_per_s: f64,
 ) -> Vec<Notice> {
     let mut warnings = Vec::new();
-    let [not_zero, small, drift] = REST_KINDS;
+    let [not_zero, small, drift, _] = REST_KINDS;
     if first_m_per_s2 != 0.0 {
         let is_small = first_m_per_s2.abs() <= SMALL_FIRST_SAMPLE * pga_m_per_s2;
         let message = format!(
@@ -53,6 +73,59 @@ pub fn rest(
         warnings.push(Notice::new(drift, message));
     }
     warnings
+}
+
+/// A notice of a motion whose peaks no earthquake has: its clock or its factor is wrong.
+#[must_use]
+pub fn beyond_earthquakes(pga_m_per_s2: f64, pgv_m_per_s: f64, pgd_m: f64) -> Option<Notice> {
+    let [_, largest_pga] = ABSURD_PEAKS_M_PER_S2;
+    let peaks = [
+        ("acceleration", pga_m_per_s2 / STANDARD_GRAVITY_M_PER_S2, "g", pga_m_per_s2 > largest_pga),
+        ("velocity", pgv_m_per_s, "m/s", pgv_m_per_s > LARGEST_VELOCITY_M_PER_S),
+        ("displacement", pgd_m, "m", pgd_m > LARGEST_DISPLACEMENT_M),
+    ];
+    let beyond = peaks.iter().filter(|(.., is_beyond)| *is_beyond);
+    let beyond: Vec<String> = beyond
+        .map(|(of, peak, unit, _)| format!("a peak {of} of {} {unit}", figures(*peak)))
+        .collect();
+    (!beyond.is_empty()).then(|| {
+        let message = format!(
+            "the motion has {}, as no earthquake has: check the time step, the units and the factor",
+            beyond.join(" and ")
+        );
+        Notice::new(NoticeKind::AbsurdMotion, message)
+    })
+}
+
+/// A step at which no record is sampled.
+fn long_step(sampling: &Sampling) -> Option<Notice> {
+    let usual_s = match sampling {
+        Sampling::Dt(dt_s) => *dt_s,
+        Sampling::Times(times_s) => {
+            let steps = times_s.windows(2).map(|t| t[1] - t[0]);
+            upper_median(steps.filter(|step| *step > 0.0))?
+        }
+    };
+    // Rounding of the times may make 0.1 s a little more.
+    (usual_s > (1.0 + 1e-9) * LONGEST_STEP_S).then(|| {
+        let message = format!(
+            "the samples lie {} s apart, which no record does: if the times are milliseconds or \
+             numbers of samples, give the time step as dt",
+            round(usual_s)
+        );
+        Notice::new(NoticeKind::LongStep, message)
+    })
+}
+
+/// Values of which none is below 0 and the last is above it, as ordinates of a spectrum are.
+fn one_sided(values: &[f64]) -> Option<Notice> {
+    let ends_above = values.last().is_some_and(|last| *last > 0.0);
+    let none_below = || values.iter().all(|value| *value >= 0.0);
+    (values.len() >= LEAST_ONE_SIDED && ends_above && none_below()).then(|| {
+        let message = "no value is below 0 and the last is above it: a spectrum, or another quantity, \
+                       is no ground motion";
+        Notice::new(NoticeKind::OneSided, message)
+    })
 }
 
 /// A peak that the values can only have in another unit.
@@ -88,11 +161,15 @@ pub fn judged(values: &[f64], sampling: &Sampling, units: &Units) -> Vec<Notice>
     if units.quantity() == Quantity::Acceleration
         && let Some(&first) = values.first()
     {
-        let (end, peak) = velocity(values, sampling);
+        let Integrals { end_velocity, velocity, displacement } = Integrals::of(values, sampling);
         let pga = values.iter().fold(0.0_f64, |pga, a| pga.max(a.abs()));
-        warnings.extend(rest(first, pga, end, peak));
+        warnings.extend(rest(first, pga, end_velocity, velocity));
         warnings.extend(absurd(pga, units));
+        // The peak acceleration was said in the units of the file.
+        warnings.extend(beyond_earthquakes(0.0, velocity, displacement));
+        warnings.extend(one_sided(values));
     }
+    warnings.extend(long_step(sampling));
     warnings.extend(clipped(values, units.si()));
     if let Sampling::Times(times_s) = sampling {
         warnings.extend(gap(times_s));
@@ -122,51 +199,113 @@ pub(super) fn peak_differs(
     })
 }
 
-/// Velocity at the end and its largest size at a sample in m/s, from rest, by the trapezium rule,
-/// which is exact at the samples of straight lines.
-fn velocity(values: &[f64], sampling: &Sampling) -> (f64, f64) {
-    let (mut v, mut peak) = (0.0_f64, 0.0_f64);
-    let mut pass = |dt_s: f64, a: &[f64]| {
-        v += dt_s * 0.5 * (a[0] + a[1]);
-        peak = peak.max(v.abs());
-    };
-    let pairs = values.windows(2);
-    match sampling {
-        Sampling::Dt(dt_s) => pairs.for_each(|a| pass(*dt_s, a)),
-        Sampling::Times(times_s) => {
-            times_s.windows(2).zip(pairs).for_each(|(t, a)| pass(t[1] - t[0], a));
-        }
-    }
-    (v, peak)
+/// Integrals of an acceleration from rest: the trapezium rule, which is exact at the samples of straight
+/// lines for the velocity, and the displacement of straight lines.
+struct Integrals {
+    /// Velocity at the end, in m/s.
+    end_velocity: f64,
+    /// Its largest size at a sample, in m/s.
+    velocity: f64,
+    /// The largest displacement at a sample, in m.
+    displacement: f64,
 }
 
-/// A recorder at the end of its range holds its largest value. Two plateaus at the same extreme, far
-/// above the resolution, are taken for that; a made-up rectangle or one flat top is not.
+impl Integrals {
+    fn of(values: &[f64], sampling: &Sampling) -> Self {
+        let (mut v, mut u) = (0.0_f64, 0.0_f64);
+        let mut all = Self { end_velocity: 0.0, velocity: 0.0, displacement: 0.0 };
+        let mut pass = |dt_s: f64, a: &[f64]| {
+            u += dt_s * (v + dt_s * (2.0 * a[0] + a[1]) / 6.0);
+            v += dt_s * 0.5 * (a[0] + a[1]);
+            all.velocity = all.velocity.max(v.abs());
+            all.displacement = all.displacement.max(u.abs());
+        };
+        let pairs = values.windows(2);
+        match sampling {
+            Sampling::Dt(dt_s) => pairs.for_each(|a| pass(*dt_s, a)),
+            Sampling::Times(times_s) => {
+                times_s.windows(2).zip(pairs).for_each(|(t, a)| pass(t[1] - t[0], a));
+            }
+        }
+        Self { end_velocity: v, ..all }
+    }
+}
+
+/// Values held at an extreme.
+#[derive(Default)]
+struct Plateaus {
+    count: usize,
+    /// Values in them.
+    held: usize,
+}
+
+impl Plateaus {
+    /// Those of [`CLIPPED_RUN`] values or more that are the extreme itself.
+    fn exact(values: &[f64], extreme: f64) -> Self {
+        let runs = values.chunk_by(|a, b| (*a == extreme) == (*b == extreme));
+        let runs = runs.filter(|run| run[0] == extreme && run.len() >= CLIPPED_RUN);
+        runs.fold(Self::default(), |all, run| Self {
+            count: all.count + 1,
+            held: all.held + run.len(),
+        })
+    }
+
+    /// Those that lie within a band at the extreme and are run into and left far more steeply than a
+    /// rounded top of their width and height would be: `4 h/n` a sample for a parabola.
+    fn within(values: &[f64], extreme: f64, band: f64) -> Self {
+        let inside = |value: f64| (value - extreme).abs() <= band;
+        let (mut all, mut start) = (Self::default(), 0);
+        for run in values.chunk_by(|a, b| inside(*a) == inside(*b)) {
+            let (before, after) = (&values[..start], &values[start + run.len()..]);
+            start += run.len();
+            if !inside(run[0]) || run.len() < CLIPPED_RUN {
+                continue;
+            }
+            let (&[.., b1, b0], &[a0, a1, ..]) = (before, after) else { continue };
+            let edge = PLATEAU_EDGE * 4.0 * band / run.len() as f64;
+            if (b0 - b1).abs() > edge && (a1 - a0).abs() > edge {
+                all.count += 1;
+                all.held += run.len();
+            }
+        }
+        all
+    }
+}
+
+/// A recorder at the end of its range holds its largest value, to within what its amplifier makes of it.
+/// Two plateaus at the extremes, far above the resolution, are taken for that; a made-up rectangle or one
+/// flat top is not.
 fn clipped(values: &[f64], si: f64) -> Option<Notice> {
     let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-    for extreme in [largest, least] {
-        let (mut run, mut plateaus, mut held) = (0, 0, 0);
-        for &value in values {
-            run = if value == extreme { run + 1 } else { 0 };
-            plateaus += usize::from(run == CLIPPED_RUN);
-            held += usize::from(value == extreme);
-        }
-        // Levels between the extremes: few in a made-up motion or a quiet one.
-        let fine = || {
-            let steps = values.windows(2).map(|v| (v[1] - v[0]).abs()).filter(|step| *step > 0.0);
-            steps.fold(f64::INFINITY, f64::min) < 0.01 * (largest - least)
-        };
-        if extreme != 0.0 && plateaus >= 2 && fine() {
-            let message = format!(
-                "{held} values are exactly {} times the unit of the file, in {plateaus} plateaus: \
-                 the recorder was probably clipped there",
-                extreme / si
-            );
-            return Some(Notice::new(NoticeKind::Clipped, message));
+    let range = largest - least;
+    // Levels between the extremes: few in a made-up motion or a quiet one.
+    let steps = values.windows(2).map(|v| (v[1] - v[0]).abs()).filter(|step| *step > 0.0);
+    if !(steps.fold(f64::INFINITY, f64::min) < 0.01 * range) {
+        return None;
+    }
+    let notice = |held: usize, count: usize, how: &str, extreme: f64| {
+        let message = format!(
+            "{held} values are {how} {} times the unit of the file, in {count} plateaus: the recorder \
+             was probably clipped there",
+            extreme / si
+        );
+        Notice::new(NoticeKind::Clipped, message)
+    };
+    for extreme in [largest, least].into_iter().filter(|extreme| *extreme != 0.0) {
+        let Plateaus { count, held } = Plateaus::exact(values, extreme);
+        if count >= 2 {
+            return Some(notice(held, count, "exactly", extreme));
         }
     }
-    None
+    PLATEAU_SHARES.into_iter().find_map(|share| {
+        let of = |extreme: f64| Plateaus::within(values, extreme, share * range);
+        let [high, low] = [of(largest), of(least)];
+        let (count, held) = (high.count + low.count, high.held + low.held);
+        let extreme = if high.count >= low.count { largest } else { least };
+        let how = format!("within {} % of the range of", 100.0 * share);
+        (count >= 2 && extreme != 0.0).then(|| notice(held, count, &how, extreme))
+    })
 }
 
 /// One step far longer than the others, which are alike.
@@ -245,7 +384,8 @@ mod tests {
     #[test]
     fn absurd_peaks() {
         let of = |peak: f64| kinds(&[0.0, peak, -peak, 0.0], Sampling::Dt(0.1));
-        assert_eq!([of(981.0), of(1e-5)], [["absurd_peak"], ["absurd_peak"]]);
+        assert_eq!(of(981.0), ["absurd_peak", "absurd_motion"]);
+        assert_eq!(of(1e-5), ["absurd_peak"]);
         assert!(of(40.0).is_empty() && of(2e-3).is_empty() && of(0.0).is_empty());
     }
 
@@ -257,9 +397,38 @@ mod tests {
         };
         assert!(kinds(&clip(1.9), Sampling::Dt(0.1)).contains(&"clipped"));
         assert!(!kinds(&clip(2.1), Sampling::Dt(0.1)).contains(&"clipped"));
+        // Noise of a ten-thousandth on the plateaus, on both sides or on one.
+        let noisy = |least: f64| -> Vec<f64> {
+            let noise = |k: usize| 2e-4 * libm::sin(7.0 * (k * k) as f64);
+            let top = |(k, v): (usize, f64)| if v.abs() == 1.9 { v + noise(k) } else { v };
+            let one_side = |v: f64| v.max(least);
+            clip(1.9).into_iter().map(one_side).enumerate().map(top).collect()
+        };
+        assert!(kinds(&noisy(-1.9), Sampling::Dt(0.1)).contains(&"clipped"));
+        assert!(kinds(&noisy(-1.0), Sampling::Dt(0.1)).contains(&"clipped"));
+        // The tops of a sine that is sampled finely are round.
+        let fine: Vec<f64> = (0..20_000).map(|k| libm::sin(f64::from(k) * 0.003)).collect();
+        assert!(!kinds(&fine, Sampling::Dt(0.001)).contains(&"clipped"));
         // Rectangles are meant.
         let rectangles = [0.0, 2.0, 2.0, 2.0, 2.0, 0.0, 2.0, 2.0, 2.0, 2.0, 0.0, 0.0];
         assert!(!kinds(&rectangles, Sampling::Dt(0.1)).contains(&"clipped"));
+    }
+
+    /// Milliseconds taken as seconds, and the ordinates of a spectrum.
+    #[test]
+    fn no_motion_of_the_ground() {
+        let sine = |dt_s: f64| {
+            let values: Vec<f64> = (0..100).map(|k| libm::sin(f64::from(k) * 0.1)).collect();
+            kinds(&values, Sampling::Dt(dt_s))
+        };
+        assert!(!sine(0.1).contains(&"long_step") && !sine(0.1).contains(&"absurd_motion"));
+        assert!(sine(5.0).contains(&"long_step") && sine(5.0).contains(&"absurd_motion"));
+        let uneven: Vec<f64> = (0..100).map(|k| f64::from(k) * 5.0 + f64::from(k % 2)).collect();
+        assert!(kinds(&[0.0; 100], Sampling::Times(uneven)).contains(&"long_step"));
+        let ordinates: Vec<f64> = (1..30).map(|k| 1.0 / f64::from(k)).collect();
+        assert!(kinds(&ordinates, Sampling::Dt(0.1)).contains(&"one_sided"));
+        let pulse: Vec<f64> = (0..30).map(|k| f64::from(k.min(29 - k))).collect();
+        assert!(!kinds(&pulse, Sampling::Dt(0.1)).contains(&"one_sided"));
     }
 
     #[test]

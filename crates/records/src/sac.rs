@@ -224,10 +224,11 @@ fn trace(
             let found = times_s[i].to_string();
             return Err(error(Place::Value(layout.count + i), expected, &found));
         }
-        let (sampling, found) = sampling::of_times(times_s, options.dt_s).map_err(|own| {
+        sampling::fits(&times_s, options.dt_s).map_err(|own| {
             let expected = format!("the time step given, {} s", options.dt_s.unwrap_or(0.0));
             error(Place::Value(layout.count), expected, &own)
         })?;
+        let (sampling, found) = sampling::of_times(times_s, options.dt_s);
         warnings.extend(found);
         sampling
     };

@@ -1,4 +1,4 @@
-//! The time step of a column of times, and whether a given step fits it.
+//! The time step of a column of times, or the one that is given in its place.
 
 use core::ops::Range;
 
@@ -13,38 +13,24 @@ use slipstick_dynamics::notice::{Notice, NoticeKind};
 /// decimals which follow a short step to within their last decimal (a hundredth of the step at
 /// most) are taken as that step. Any others stay as they are.
 ///
-/// `times_s` are two or more and do not decrease. `given_s` is the caller's step.
-///
-/// # Errors
-/// The column's own step in words where the caller's does not fit it.
-pub fn of_times(
-    times_s: Vec<f64>,
-    given_s: Option<f64>,
-) -> Result<(Sampling, Vec<Notice>), String> {
+/// `times_s` are two or more and do not decrease. `given_s` is the caller's step, which stands in place
+/// of theirs: that is said unless both are one.
+pub fn of_times(times_s: Vec<f64>, given_s: Option<f64>) -> (Sampling, Vec<Notice>) {
     let from_zero: Vec<f64> = times_s.iter().map(|t| t - times_s[0]).collect();
-    let resolution_s = resolution(&times_s);
     let even = constant_step(&from_zero);
     if let Some(given_s) = given_s {
-        return match even {
-            Some(dt_s) if dt_s == given_s => Ok((Sampling::Dt(given_s), vec![])),
-            Some(dt_s) if (dt_s - given_s).abs() <= 0.51 * resolution_s => {
-                Ok((Sampling::Dt(given_s), vec![replaced(given_s)]))
-            }
-            _ if follows(&from_zero, given_s, resolution_s) => {
-                Ok((Sampling::Dt(given_s), vec![replaced(given_s)]))
-            }
-            Some(dt_s) => Err(format!("{dt_s} s")),
-            None => Err("uneven times".to_owned()),
-        };
+        let notice = (even != Some(given_s)).then(|| replaced(given_s, even));
+        return (Sampling::Dt(given_s), notice.into_iter().collect());
     }
+    let resolution_s = resolution(&times_s);
     if let Some(dt_s) = even {
-        return Ok((Sampling::Dt(dt_s), odd_step(dt_s, resolution_s).into_iter().collect()));
+        return (Sampling::Dt(dt_s), odd_step(dt_s, resolution_s).into_iter().collect());
     }
     if let Some(dt_s) = step_but_for_rounding(&from_zero, resolution_s) {
         let message = format!(
             "the times are rounded to {resolution_s} s: taken as evenly spaced at {dt_s} s"
         );
-        return Ok((Sampling::Dt(dt_s), vec![Notice::new(NoticeKind::TimesRounded, message)]));
+        return (Sampling::Dt(dt_s), vec![Notice::new(NoticeKind::TimesRounded, message)]);
     }
     let steps = || from_zero.windows(2).map(|t| t[1] - t[0]);
     let spread_s = steps().fold(0.0, f64::max) - steps().fold(f64::INFINITY, f64::min);
@@ -55,7 +41,24 @@ pub fn of_times(
         );
         Notice::new(NoticeKind::TimesRounded, message)
     });
-    Ok((Sampling::Times(times_s), warning.into_iter().collect()))
+    (Sampling::Times(times_s), warning.into_iter().collect())
+}
+
+/// Whether the caller's step is that of times which a format states in seconds, to within the rounding of
+/// both.
+///
+/// # Errors
+/// Their own step in words where it is not.
+pub(super) fn fits(times_s: &[f64], given_s: Option<f64>) -> Result<(), String> {
+    let Some(given_s) = given_s else { return Ok(()) };
+    let from_zero: Vec<f64> = times_s.iter().map(|t| t - times_s[0]).collect();
+    let resolution_s = resolution(times_s);
+    match constant_step(&from_zero) {
+        Some(dt_s) if (dt_s - given_s).abs() <= 0.51 * resolution_s => Ok(()),
+        _ if follows(&from_zero, given_s, resolution_s) => Ok(()),
+        Some(dt_s) => Err(format!("{dt_s} s")),
+        None => Err("uneven times".to_owned()),
+    }
 }
 
 /// The step that a header states, unless the caller's is what it rounds: steps are printed with few
@@ -109,8 +112,10 @@ pub(super) fn disorder(times_s: &[f64]) -> Option<usize> {
     })
 }
 
-fn replaced(given_s: f64) -> Notice {
-    let message = format!("the times of the file were replaced by the given step of {given_s} s");
+fn replaced(given_s: f64, own_s: Option<f64>) -> Notice {
+    let own = own_s.map_or("uneven steps".to_owned(), |own_s| format!("steps of {own_s} s"));
+    let message =
+        format!("the times of the file, {own}, were replaced by the given step of {given_s} s");
     Notice::new(NoticeKind::TimesReplaced, message)
 }
 
@@ -178,7 +183,7 @@ mod tests {
     fn an_even_step_is_told_from_rounded_times() {
         assert_eq!(resolution(&[0.0, 0.02, 0.04]), 0.01);
         assert_eq!(resolution(&[0.0, 0.005, 163.42]), 0.001);
-        let (sampling, warnings) = of_times(rounded(0.02, 100.0, 50), None).unwrap();
+        let (sampling, warnings) = of_times(rounded(0.02, 100.0, 50), None);
         assert_eq!((sampling, warnings.len()), (Sampling::Dt(0.02), 0));
     }
 
@@ -187,17 +192,17 @@ mod tests {
     fn last_decimal_is_rounding() {
         let mut times_s = rounded(0.02, 1e5, 100);
         times_s[40] -= 1e-5;
-        let (sampling, warnings) = of_times(times_s, None).unwrap();
+        let (sampling, warnings) = of_times(times_s, None);
         assert_eq!((sampling, warnings[0].kind), (Sampling::Dt(0.02), NoticeKind::TimesRounded));
     }
 
     #[test]
     fn uneven_times_stay() {
         let times_s = vec![0.0, 0.01, 0.03, 0.04];
-        let (sampling, warnings) = of_times(times_s.clone(), None).unwrap();
+        let (sampling, warnings) = of_times(times_s.clone(), None);
         assert_eq!((sampling, warnings.len()), (Sampling::Times(times_s), 1));
         let times_s = vec![0.0, 0.01, 0.05, 0.06];
-        let (sampling, warnings) = of_times(times_s.clone(), None).unwrap();
+        let (sampling, warnings) = of_times(times_s.clone(), None);
         assert_eq!((sampling, warnings.len()), (Sampling::Times(times_s), 0));
     }
 
@@ -205,20 +210,30 @@ mod tests {
     #[test]
     fn rounded_step_is_doubted_and_may_be_replaced() {
         let times_s = rounded(0.003, 1e3, 100);
-        let (sampling, warnings) = of_times(times_s.clone(), None).unwrap();
+        let (sampling, warnings) = of_times(times_s.clone(), None);
         assert_eq!((sampling, warnings[0].kind), (Sampling::Dt(0.003), NoticeKind::TimesRounded));
-        let (sampling, warnings) = of_times(times_s.clone(), Some(0.0025)).unwrap();
+        let (sampling, warnings) = of_times(times_s.clone(), Some(0.0025));
         assert_eq!((sampling, warnings[0].kind), (Sampling::Dt(0.0025), NoticeKind::TimesReplaced));
-        assert_eq!(of_times(times_s.clone(), Some(0.003)).unwrap().1, vec![]);
-        assert_eq!(of_times(times_s, Some(0.01)).unwrap_err(), "0.003 s");
+        assert_eq!(of_times(times_s, Some(0.003)).1, vec![]);
     }
 
     /// Thirds of a hundredth with three decimals: 0.003, 0.007, 0.010, …
     #[test]
     fn times_may_be_replaced_by_the_step_they_round() {
         let times_s = rounded(1.0 / 300.0, 1e3, 100);
-        let (sampling, warnings) = of_times(times_s.clone(), Some(1.0 / 300.0)).unwrap();
+        assert!(fits(&times_s, Some(1.0 / 300.0)).is_ok() && fits(&times_s, None).is_ok());
+        assert_eq!(fits(&times_s, Some(0.01)).unwrap_err(), "uneven times");
+        assert_eq!(fits(&rounded(0.003, 1e3, 100), Some(0.01)).unwrap_err(), "0.003 s");
+        let (sampling, warnings) = of_times(times_s.clone(), Some(1.0 / 300.0));
         assert_eq!((sampling, warnings.len()), (Sampling::Dt(1.0 / 300.0), 1));
-        assert_eq!(of_times(times_s, Some(0.01)).unwrap_err(), "uneven times");
+        assert_eq!(warnings[0].kind, NoticeKind::TimesReplaced);
+    }
+
+    /// Milliseconds without a unit.
+    #[test]
+    fn a_given_step_stands_in_place_of_a_clock() {
+        let (sampling, warnings) = of_times(vec![0.0, 5.0, 10.0], Some(0.005));
+        assert_eq!((sampling, warnings[0].kind), (Sampling::Dt(0.005), NoticeKind::TimesReplaced));
+        assert!(warnings[0].message.contains("steps of 5 s"), "{warnings:?}");
     }
 }

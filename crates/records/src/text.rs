@@ -189,6 +189,12 @@ impl<'a> Line<'a> {
         String::from_utf8_lossy(self.bytes.trim_ascii()).into_owned()
     }
 
+    /// The line as text, but for blanks behind it and spaces before it.
+    pub fn text(&self) -> String {
+        let start = self.bytes.iter().take_while(|b| **b == b' ').count();
+        String::from_utf8_lossy(self.bytes[start..].trim_ascii_end()).into_owned()
+    }
+
     /// Where some text in capitals stands first at or after `from`, capital letters or not.
     pub fn find(&self, capitals: &str, from: usize) -> Option<usize> {
         let after = self.bytes.get(from..)?;

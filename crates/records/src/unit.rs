@@ -15,7 +15,7 @@ pub struct Units {
 }
 
 /// Symbol, quantity, factor to SI, and the spellings of it after [`plain`].
-const TABLE: [(&str, Quantity, f64, &[&str]); 22] = {
+const TABLE: [(&str, Quantity, f64, &[&str]); 23] = {
     use Quantity::{Acceleration, Counts, Displacement, Velocity};
     const G: f64 = STANDARD_GRAVITY_M_PER_S2;
     const INCH: f64 = 0.0254;
@@ -23,6 +23,7 @@ const TABLE: [(&str, Quantity, f64, &[&str]); 22] = {
     [
         ("g", Acceleration, G, &["g", "gs", "g's"]),
         ("g/10", Acceleration, G / 10.0, &["g/10"]),
+        ("%g", Acceleration, G / 100.0, &["%g", "pctg", "percentg", "%ofg", "g%"]),
         ("mg", Acceleration, G / 1e3, &["mg", "milli-g", "millig"]),
         ("µg", Acceleration, G / 1e6, &["µg", "μg", "ug", "microg"]),
         ("m/s²", Acceleration, 1.0, &["m/s2", "m/s/s", "ms-2", "m/s-2"]),
@@ -116,22 +117,29 @@ impl core::fmt::Display for Units {
 
 /// Seconds in a unit of time as a column's header names it.
 pub(super) fn seconds(word: &str) -> Option<f64> {
-    match plain(word).as_str() {
-        "s" | "seconds" => Some(1.0),
-        "ms" => Some(0.001),
-        "min" => Some(60.0),
-        _ => None,
-    }
+    let word = word.trim().trim_end_matches('.').to_lowercase();
+    Some(match word.as_str() {
+        "s" | "sec" | "secs" | "second" | "seconds" | "sn" | "saniye" | "sek" | "sekunde"
+        | "sekunden" | "seg" | "segundo" | "segundos" => 1.0,
+        "ms" | "msec" | "msecs" | "msek" | "millis" | "millisecond" | "milliseconds" => 1e-3,
+        "us" | "µs" | "μs" | "usec" | "microsecond" | "microseconds" => 1e-6,
+        "ns" | "nsec" | "nanosecond" | "nanoseconds" => 1e-9,
+        "min" | "minute" | "minutes" => 60.0,
+        _ => return None,
+    })
 }
 
-/// A word in small letters without blanks, powers and seconds spelt one way.
+/// A word in small letters without blanks, powers and seconds spelt one way. `\u{FFFD}` is what an
+/// older encoding's ² becomes.
 fn plain(word: &str) -> String {
     word.trim()
         .to_lowercase()
         .replace([' ', '^', '*'], "")
-        .replace('²', "2")
+        .replace(['²', '\u{FFFD}'], "2")
         .replace("sec", "s")
+        .replace("sn", "s")
         .replace("_per_", "/")
+        .replace('_', "/")
 }
 
 #[cfg(test)]
@@ -152,6 +160,9 @@ mod tests {
             ("m/s²", "m/s²", 1.0),
             ("CM/S", "cm/s", 0.01),
             ("CM", "cm", 0.01),
+            ("%g", "%g", 0.098_066_5),
+            ("m_s2", "m/s²", 1.0),
+            ("cm/sn²", "cm/s²", 0.01),
         ] {
             let units = Units::parse(word).unwrap_or_else(|| panic!("{word}"));
             assert_eq!((units.symbol, units.si), (symbol, si), "{word}");
@@ -179,8 +190,8 @@ mod tests {
         assert_eq!((count.si, count.to_string().as_str()), (0.0005, "0.5 mm/s²"));
         assert_ne!(Some(count), Units::parse("mm/s^2"));
         assert_eq!(
-            [seconds("s"), seconds("sec"), seconds("ms"), seconds("m")],
-            [Some(1.0), Some(1.0), Some(0.001), None]
+            ["s", "sec", "sn", "seconds", "ms", "m"].map(seconds),
+            [Some(1.0), Some(1.0), Some(1.0), Some(1.0), Some(0.001), None]
         );
     }
 }

@@ -512,10 +512,11 @@ pub(super) fn pairs(
         let expected = format!("a time after {} s in pair {}", times_s[at - 1], at + 1);
         return Err(cursor.text.error(&line, 0, expected, &format!("{} s", times_s[at])));
     }
-    let (sampling, warnings) = sampling::of_times(times_s, given_s).map_err(|own| {
+    sampling::fits(&times_s, given_s).map_err(|own| {
         let given_s = given_s.unwrap_or_default();
         let expected = format!("times at the step given, {given_s} s (leave it out)");
         cursor.text.error(announced, 0, expected, &own)
     })?;
+    let (sampling, warnings) = sampling::of_times(times_s, given_s);
     Ok((values, sampling, warnings))
 }

@@ -76,6 +76,8 @@ pub fn of_tank(tank: &LiquidTank) -> String {
         ("{convective_ratio}", ratio(tank.convective_mass_kg)),
         ("{impulsive_height}", lengths(tank.impulsive_height_m)),
         ("{convective_height}", lengths(tank.convective_height_m)),
+        ("{wall_impulsive_height}", length(tank.wall_impulsive_height_m)),
+        ("{wall_convective_height}", length(tank.wall_convective_height_m)),
         ("{convective_period}", format!("{} s", significant(tank.convective_period_s, 5))),
         ("{block_mass}", format!("{} t", significant(block_kg / 1e3, 3))),
         ("{block_width}", length(2.0 * tank.radius_m + WIDER_M)),

@@ -40,9 +40,11 @@ pub fn table(summary: &StudySummary, display: DisplayUnits) -> String {
         if rows.is_empty() {
             continue;
         }
-        let largest = rows.iter().fold(0.0, |l: f64, row| l.max(row.max.abs()));
-        let unit = display.unit(demand.dimension().into(), largest);
-        let show = |si: f64| significant(unit.of(si), 4);
+        let unit = display.unit(demand.dimension().into(), largest(&rows));
+        let show = |si: f64| match si.is_infinite() {
+            true => "beyond".to_owned(),
+            false => significant(unit.of(si), 4),
+        };
         let words = demand.demand.words;
         let name = match demand.demand.of.part() {
             None => words.to_owned(),
@@ -72,18 +74,47 @@ pub fn table(summary: &StudySummary, display: DisplayUnits) -> String {
                 "{:>12}{} {:>9} {low:>10} {median:>10} {high:>10} {:>10} {:>10}  {:<20} {run:>9}",
                 level(summary, row, display),
                 friction(row.friction.unwrap_or_default()),
-                count(row.runs - row.failures),
+                count(row.runs - row.failures + row.beyond),
                 show(row.mean),
                 show(row.max),
                 shortened(file_name(&row.max_record), 20),
             );
         }
     }
-    let failures: u64 = summary.failures();
-    if failures > 0 {
-        let _ = writeln!(text, "\n{} runs failed: see the column status", count(failures));
+    if let Some(message) = without_answer(summary) {
+        let _ = writeln!(text, "\n{message}: see the column status");
     }
     text
+}
+
+/// Largest of the values that are known, from which a unit follows.
+fn largest(rows: &[&LevelSummary]) -> f64 {
+    let known = |row: &&LevelSummary| {
+        let all = row.quantiles.into_iter().chain([row.max]).filter(|value| value.is_finite());
+        all.fold(0.0, |largest: f64, value| largest.max(value.abs()))
+    };
+    rows.iter().map(known).fold(0.0, f64::max)
+}
+
+/// How many runs have no answer, and what they count as.
+fn without_answer(summary: &StudySummary) -> Option<String> {
+    let (failures, beyond) = (summary.failures(), summary.beyond_travel());
+    if failures == 0 {
+        return None;
+    }
+    let (of_beyond, left) = (count(beyond), count(failures - beyond));
+    Some(match (beyond, failures - beyond) {
+        (0, _) => format!("{left} runs failed and are left out"),
+        (_, 0) => format!(
+            "{of_beyond} runs used up their travel: their sliding displacement counts as beyond all others, and their \
+             other demands are left out"
+        ),
+        _ => format!(
+            "{} runs failed: of {of_beyond} that used up their travel the sliding displacement counts as beyond all \
+             others, and all else is left out",
+            count(failures)
+        ),
+    })
 }
 
 fn level(summary: &StudySummary, row: &LevelSummary, display: DisplayUnits) -> String {
@@ -157,6 +188,7 @@ mod tests {
             demand: DemandColumn::of_name(demand).unwrap(),
             runs: 10,
             failures: 1,
+            beyond: 0,
             mean: 0.25,
             quantiles: [0.1, 0.2, 0.3],
             distribution: Vec::new(),
@@ -183,6 +215,9 @@ mod tests {
         assert!(table.contains("\nDeck peak drift (mm)\n"), "{table}");
         assert!(table.contains("0.102 g") && table.contains("-500.0"), "{table}");
         assert!(!table.contains("gap ratio"), "{table}");
-        assert!(table.ends_with("\n2 runs failed: see the column status\n"), "{table}");
+        assert!(
+            table.ends_with("\n2 runs failed and are left out: see the column status\n"),
+            "{table}"
+        );
     }
 }

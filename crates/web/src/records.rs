@@ -131,13 +131,20 @@ impl Records {
                 (Wanted { record, channel: None }, source.vertical_scale.unwrap_or(1.0))
             }),
         };
-        Loaded::recorded(components, Some(source.scale)).map_err(|error| match &error {
-            LoadError::Motion { error, .. } => Failure::input(&analysis.motion_error(error), text),
-            LoadError::Channel { key, .. } => {
-                let key = format!("motion.{}", key.unwrap_or("channel"));
-                Failure::input(&analysis.error_at(&key, error.to_string(), "nothing"), text)
-            }
-        })
+        let loaded =
+            Loaded::recorded(components, Some(source.scale)).map_err(|error| match &error {
+                LoadError::Motion { error, .. } => {
+                    Failure::input(&analysis.motion_error(error), text)
+                }
+                LoadError::Channel { key, .. } => {
+                    let key = format!("motion.{}", key.unwrap_or("channel"));
+                    Failure::input(&analysis.error_at(&key, error.to_string(), "nothing"), text)
+                }
+            })?;
+        let along_y = source.along_y.as_ref();
+        let of_y = along_y.map(|y| (y.path.as_str(), y.channel.as_deref()));
+        let x = (source.path.as_str(), source.channel.as_deref());
+        Ok(loaded.with_vertical_told(x, of_y))
     }
 }
 

@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use slipstick::assessment::models::Models;
 use slipstick::assessment::suite::Suite;
+use slipstick::error::listed;
 use slipstick::input::loaded::{Components, Loaded, Wanted};
 use slipstick::input::plan::Plan;
 use slipstick::input::unfit::refuse_unfit;
@@ -626,13 +627,15 @@ impl Planned {
         1 + self.study.shape().columns().len()
     }
 
-    /// Some runs, a row each: 1, or 0 where it has no answer, and its demands.
+    /// Some runs, a row each: 1, or 0 where it has no answer, less the travel in m that it has used up, and its
+    /// demands.
     pub fn rows(&self, from: u64, to: u64) -> Result<Vec<f64>, Failure> {
         let runs = from..to.min(self.study.runs());
         let rows = self.study.rows(runs, &Engine::unwatched()).map_err(Failure::of)?;
         let mut numbers = Vec::with_capacity(rows.len() * self.width());
         for row in &rows {
-            numbers.push(if row.error.is_none() { 1.0 } else { 0.0 });
+            let used_up_m = row.travel_used_up_m().unwrap_or(0.0);
+            numbers.push(if row.error.is_none() { 1.0 } else { -used_up_m });
             // Those by axis come after them, which no page shows.
             numbers.extend(row.demands.iter().take(self.width() - 1));
         }
@@ -693,16 +696,26 @@ impl Planned {
         }
         let runs = || (0..).zip(rows.chunks_exact(self.width()));
         let solved = |take: Take<'_, bool>| {
-            runs().for_each(|(run, row)| take(run, row[0] != 0.0));
+            runs().for_each(|(run, row)| take(run, row[0] > 0.0));
             Ok::<(), slipstick::error::Stopped>(())
         };
         let demand = |column: usize, take: Take<'_, f64>| {
             runs().for_each(|(run, row)| take(run, row[1 + column]));
             Ok(())
         };
+        let travel_used_up = |take: Take<'_, f64>| {
+            let used_up = |of_row: f64| if of_row < 0.0 { -of_row } else { f64::NAN };
+            runs().for_each(|(run, row)| take(run, used_up(row[0])));
+            Ok(())
+        };
         // The page keeps the numbers of rows alone.
         let warnings = |_: &mut dyn FnMut(u64, &str)| Ok(());
-        let passes = Rows { solved: &solved, demand: &demand, warnings: &warnings };
+        let passes = Rows {
+            solved: &solved,
+            demand: &demand,
+            travel_used_up: &travel_used_up,
+            warnings: &warnings,
+        };
         let summary = self.study.summary(&self.name, &passes, &Engine::unwatched());
         let study = StudyReport {
             study: &self.study,
@@ -751,7 +764,7 @@ fn planned(
                 missing.len(),
                 patterns.len()
             );
-            let found = format!("no file for {}", missing.join(", "));
+            let found = format!("no file for {}", listed(missing));
             Err(in_plan(plan.error_at(&format!("records.{key}"), expected, found)))
         };
         let files = named("files", &wanted.files)?;

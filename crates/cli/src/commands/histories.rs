@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use slipstick::input;
 use slipstick::requests::{Kind, On};
-use slipstick_files::{InputFiles, read_target, stems_or_paths};
+use slipstick_files::{InputFiles, TARGET, read_target, stems_or_paths};
 
 use crate::args::RunArgs;
 use crate::failure::Failure;
@@ -19,8 +19,7 @@ pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
     let asked = args.suite.asked()?;
     let target = args.target.as_deref().map(|path| {
         let (spectrum, sha256) = read_target(path).map_err(|found| {
-            let expected = "a CSV with the columns period_s and sa_g";
-            Failure::Message(format!("--target: expected {expected}, found {found}"))
+            Failure::Message(format!("--target: expected {TARGET}, found {found}"))
         })?;
         Ok::<_, Failure>((path.display().to_string(), spectrum, sha256))
     });

@@ -627,7 +627,7 @@ fn design_counts_the_runs_that_fail() {
     assert!(words.contains("of 20 were needed, 4 of them without an answer"), "{shown}");
     assert!(
         words.contains(
-            "runs have no answer and count as beyond the gap; the first: r0, \
+            "runs have no answer and are left out; the first: r0, \
              slider.kinetic_friction = 0.07: "
         ),
         "{shown}"
@@ -783,7 +783,7 @@ fn ida_with_runs_that_fail_says_so_in_its_status() {
     ];
     let output = folder.output(&arguments);
     let said: String = text(&output.stdout).split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(said.contains("1 of 6 runs have no answer and count as above any limit"), "{said}");
+    assert!(said.contains("1 of 6 runs have no answer and are left out"), "{said}");
     assert!(said.contains("the first: ripple × "), "{said}");
     assert_eq!(output.status.code(), Some(1));
 }

@@ -6,6 +6,7 @@ mod accepted;
 mod assessment;
 mod cases;
 mod endings;
+mod field;
 mod files;
 mod fragility;
 mod histories;

@@ -289,7 +289,8 @@ fn a_long_gap_is_refused_or_soon_done() {
         let refused = folder.refused(&["record", "info", "gap.csv"]);
         let expected = format!(
             "gap.csv:6:1: expected a time in proportion to the samples after 0.03 s, 4000 s from the \
-             first to the last (correct it, or cut the motion there), found {to:?}"
+             first to the last (correct it, cut the motion there, or give the time step as dt if these \
+             are no seconds), found {to:?}"
         );
         assert_eq!(refused, expected);
     }

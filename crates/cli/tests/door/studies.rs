@@ -502,7 +502,10 @@ fn failing_runs_are_rows() {
     let output = folder.output(&["study", "plan.toml", "--out", "out"]);
     assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
     let table = text(&output.stdout);
-    assert!(table.ends_with("750 runs failed: see the column status\n"), "{table}");
+    assert!(
+        table.ends_with("750 runs failed and are left out: see the column status\n"),
+        "{table}"
+    );
     assert!(text(&output.stderr).contains("1500 runs, 750 failed"), "{}", text(&output.stderr));
     folder.stdout(&["study", "merge", "out", "--out", "all.parquet"]);
     let columns = numbers(&folder, "all.parquet");
@@ -948,4 +951,23 @@ fn pairs_of_components_at_once() {
         assert!(!names.contains(&"x.slip_count") && row["slip_count"] > 0.0);
     }
     assert!(folder.read("out/report.html").contains("move the table at once"));
+}
+
+/// The file that the parts of a study are merged to says of which measure its levels are: a fragility of it is that
+/// of the folder.
+#[test]
+fn a_merged_study_keeps_its_measure() {
+    let folder = folder("study-merged-measure");
+    folder.write("plan.toml", PLAN.replace("count = 250", "count = 40"));
+    folder.stdout(&["study", "plan.toml", "--out", "out", "-q"]);
+    folder.stdout(&["study", "merge", "out", "--out", "all.parquet"]);
+    // Whether a curve can be told or not, both say the same, and of a measure that is missing nothing is said.
+    let told = |source: &str| {
+        let output = folder.output(&["fragility", source, "--limit", "1 mm"]);
+        assert!(!text(&output.stderr).contains("measure"), "{}", text(&output.stderr));
+        let lines = [text(&output.stdout), text(&output.stderr)].concat();
+        let lines = lines.lines().filter(|line| !line.starts_with("Model"));
+        lines.map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(told("all.parquet"), told("out"));
 }

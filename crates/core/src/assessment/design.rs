@@ -28,6 +28,7 @@ use crate::numerics::unit_points;
 use crate::response::demand_values;
 use crate::study::cases::{Case, CaseRun, Runs};
 use crate::study::engine::Engine;
+use crate::study::{Demanded, SLIDING, TRAVEL_USED_UP};
 use crate::table::Table;
 
 /// What is asked of a design.
@@ -42,7 +43,8 @@ pub struct Target {
     pub acceleration_share: f64,
 }
 
-/// Peak demands of one run, SI; not finite where it failed, which counts as beyond everything.
+/// Peak demands of one run, SI: infinite where the run is known to be beyond the gap, NaN where nothing is known,
+/// which is left out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Demand {
     /// Peak sliding displacement in m.
@@ -118,9 +120,15 @@ impl Target {
     /// # Errors
     /// [`FitError`] for no demands.
     pub fn figures(&self, demands: &[Demand]) -> Result<Figures, FitError> {
-        let [displacement_m, acceleration_m_per_s2] = self.bounds(demands, 0);
-        let within = demands.iter().filter(|d| d.displacement_m <= self.gap_m).count();
-        let within = Proportion::new(within as u64, demands.len() as u64)?;
+        // What no run tells is beyond everything.
+        let told = |bound: f64| if bound < 0.0 { f64::INFINITY } else { bound };
+        let [displacement_m, acceleration_m_per_s2] = self.bounds(demands, 0).map(told);
+        let within = demands.iter().filter(|d| d.displacement_m <= self.gap_m).count() as u64;
+        let known = demands.iter().filter(|d| !d.displacement_m.is_nan()).count() as u64;
+        let within = match known {
+            0 => Proportion::new(0, demands.len() as u64)?,
+            _ => Proportion::new(within, known)?,
+        };
         Ok(Figures { displacement_m, acceleration_m_per_s2, within })
     }
 
@@ -363,7 +371,8 @@ pub enum SensitivityError {
 ///
 /// # Errors
 /// [`AssessmentError`] for a demand that is none, a target out of range, scaling without an answer,
-/// and where it is stopped. A run that fails counts as beyond everything.
+/// and where it is stopped. A run without an answer counts as beyond the gap where it used up a travel as long as
+/// that; else it is left out.
 pub fn run_design(
     request: &DesignRequest<'_>,
     engine: &Engine<'_>,
@@ -383,7 +392,7 @@ pub fn run_design(
             ..Case::default()
         };
         let runs = runner.run(&pairs.iter().map(case).collect::<Vec<_>>(), &parts)?;
-        let demands = demands(&runs);
+        let demands = demands(&runs, target.gap_m);
         ran.extend(runs);
         Ok::<_, AssessmentError>(demands)
     })?;
@@ -443,22 +452,33 @@ fn rows(
         let value = |ran: &CaseRun<Demand>| grid.values(ran.case.design)[i];
         rows.numbers(&axis.path, &axis.unit, ran.iter().map(value).collect());
     }
-    let all = demands(ran);
+    let all: Vec<Demand> = ran.iter().map(|ran| *ran.kept.as_ref().unwrap_or(&UNKNOWN)).collect();
     let displacements = all.iter().map(|demand| demand.displacement_m).collect();
-    rows.numbers("peak_sliding_displacement_m", "m", displacements);
+    rows.numbers(SLIDING, "m", displacements);
     let accelerations = all.iter().map(|demand| demand.acceleration_m_per_s2).collect();
     rows.numbers(request.acceleration, "m/s2", accelerations);
+    if request.models.shape().surfaces > 0 {
+        let used_up = ran.iter().map(|ran| ran.travel_used_up_m().unwrap_or(f64::NAN));
+        rows.numbers(TRAVEL_USED_UP, "m", used_up.collect());
+    }
     Ok(rows)
 }
 
 /// Most values of a variable in a map: 25 by 25 designs give smooth lines.
 const MAP_VALUES: usize = 25;
 
-/// A run without an answer.
-const FAILED: Demand = Demand { displacement_m: f64::NAN, acceleration_m_per_s2: f64::NAN };
+/// A run of which nothing is known.
+const UNKNOWN: Demand = Demand { displacement_m: f64::NAN, acceleration_m_per_s2: f64::NAN };
 
-fn demands(ran: &[CaseRun<Demand>]) -> Vec<Demand> {
-    ran.iter().map(|ran| *ran.kept.as_ref().unwrap_or(&FAILED)).collect()
+/// What runs say where a gap is to be kept.
+fn demands(ran: &[CaseRun<Demand>], gap_m: f64) -> Vec<Demand> {
+    let of = |ran: &CaseRun<Demand>| {
+        ran.kept.as_ref().copied().unwrap_or_else(|error| {
+            let sliding = Demanded::of(SLIDING, f64::NAN, error.travel_used_up_m());
+            Demand { displacement_m: sliding.against(gap_m), ..UNKNOWN }
+        })
+    };
+    ran.iter().map(of).collect()
 }
 
 /// What all runs of a search share.
@@ -528,7 +548,7 @@ impl<'a> Runner<'a> {
         for CaseRun { case, .. } in &mut ran {
             (case.design, case.bound) = (designs[case.design / 2], case.design % 2);
         }
-        let of_bounds = demands(&ran);
+        let of_bounds = demands(&ran, target.gap_m);
         let of_bounds: Vec<&[Demand]> = of_bounds.chunks(self.factors.len()).collect();
         let bounded = |(pair, &design): (&[&[Demand]], &usize)| {
             let (lower, upper) = (target.figures(pair[0])?, target.figures(pair[1])?);
@@ -579,7 +599,7 @@ impl<'a> Runner<'a> {
         };
         let parts = self.engine.map(of_x.len() * of_y.len(), parts)?;
         // What makes no model, or fails, has no figures, and no line goes through it.
-        let demands = demands(&self.all(&parts)?);
+        let demands = demands(&self.all(&parts)?, request.target.gap_m);
         let figures = demands.chunks(self.factors.len()).map(|demands| {
             request.target.figures(demands).map_or([f64::NAN; 2], |figures| {
                 [figures.displacement_m, figures.acceleration_m_per_s2]

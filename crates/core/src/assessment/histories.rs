@@ -50,9 +50,8 @@ pub struct OnRecord {
     pub scale: f64,
     /// Peak of the horizontal acceleration as it was run, in m/s²; in two directions of the resultant.
     pub pga_m_per_s2: f64,
-    /// Demands with each bound of friction, in the order of [`ModelHistories::bounds`], and whether their
-    /// certificate holds; or why there are none.
-    pub runs: Vec<Result<(Demands, bool), FailedRun>>,
+    /// What came of each bound of friction, in the order of [`ModelHistories::bounds`]; or why nothing did.
+    pub runs: Vec<Result<CertifiedRun, FailedRun>>,
     /// Of a pair that was run together what its components say by themselves, with each bound; else none.
     pub alone: Vec<Option<Alone>>,
     /// Times in s and sliding displacements (sizes of a pair that was run together) in m with nominal friction.
@@ -61,7 +60,22 @@ pub struct OnRecord {
     pub notices: Vec<Notice>,
 }
 
+/// A run with an answer.
+#[derive(Clone, Debug)]
+pub struct CertifiedRun {
+    /// Its demands.
+    pub demands: Demands,
+    /// What the check does not confirm of it; none where its certificate holds.
+    pub defect: Option<String>,
+}
+
 impl OnRecord {
+    /// Whether the check does not confirm a run of it.
+    #[must_use]
+    pub fn is_unconfirmed(&self) -> bool {
+        self.runs.iter().flatten().any(|run| run.defect.is_some())
+    }
+
     /// The size of a demand with a bound of friction; NaN where there is none.
     #[must_use]
     pub fn size(&self, column: &DemandColumn, bound: usize) -> f64 {
@@ -72,7 +86,7 @@ impl OnRecord {
     #[must_use]
     pub fn value(&self, column: &DemandColumn, bound: usize) -> f64 {
         let demands = self.runs.get(bound).and_then(|run| run.as_ref().ok());
-        demands.and_then(|(demands, _)| column.value(demands)).unwrap_or(f64::NAN)
+        demands.and_then(|run| column.value(&run.demands)).unwrap_or(f64::NAN)
     }
 }
 
@@ -125,7 +139,7 @@ impl ModelHistories {
     #[must_use]
     pub fn shape(&self) -> DemandShape {
         let first = self.runs().find_map(|run| run.as_ref().ok());
-        first.map_or_else(DemandShape::default, |(demands, _)| demands.shape())
+        first.map_or_else(DemandShape::default, |run| run.demands.shape())
     }
 
     /// The records of each earthquake: both components of a pair, or a record alone.
@@ -134,8 +148,19 @@ impl ModelHistories {
     }
 
     /// All runs: record by record, bound by bound.
-    pub fn runs(&self) -> impl Iterator<Item = &Result<(Demands, bool), FailedRun>> {
+    pub fn runs(&self) -> impl Iterator<Item = &Result<CertifiedRun, FailedRun>> {
         self.records.iter().flat_map(|on| &on.runs)
+    }
+
+    /// The runs that the check does not confirm: the record, the bound and what is not confirmed. The records of
+    /// such runs are in no mean and no maximum.
+    pub fn unconfirmed(&self) -> impl Iterator<Item = (&OnRecord, &Bound, &str)> {
+        self.records.iter().flat_map(move |on| {
+            let of_bounds = self.bounds.iter().zip(&on.runs);
+            of_bounds.filter_map(move |(bound, run)| {
+                Some((on, bound, run.as_ref().ok()?.defect.as_deref()?))
+            })
+        })
     }
 
     /// The runs without an answer.
@@ -166,9 +191,15 @@ impl ModelHistories {
         }
     }
 
-    /// Number of pairs, or of records alone.
+    /// Number of pairs, or of records alone, that the mean or the maximum is of.
     #[must_use]
     pub fn counted(&self) -> usize {
+        self.earthquakes().filter(|records| is_confirmed(records)).count()
+    }
+
+    /// Number of pairs, or of records alone.
+    #[must_use]
+    pub fn of_earthquakes(&self) -> usize {
         self.earthquakes().count()
     }
 
@@ -194,12 +225,15 @@ impl ModelHistories {
             return f64::NAN;
         }
         let mut left = &sizes[..];
-        let of_each = self.earthquakes().map(|records| {
+        let of_each = self.earthquakes().filter_map(|records| {
             let (own, rest) = left.split_at(records.len());
             left = rest;
-            largest(own)
+            is_confirmed(records).then(|| largest(own))
         });
         let of_each: Vec<f64> = of_each.collect();
+        if of_each.is_empty() {
+            return f64::NAN;
+        }
         self.statistic_of(&of_each)
     }
 
@@ -217,6 +251,11 @@ impl ModelHistories {
         let all = all.into_iter().filter(|(_, value)| !value.is_nan());
         all.reduce(|a, b| if b.1 > a.1 { b } else { a }).map(|(i, _)| i)
     }
+}
+
+/// Whether the check confirms every run of a record, or of both components of a pair.
+fn is_confirmed(records: &[OnRecord]) -> bool {
+    !records.iter().any(OnRecord::is_unconfirmed)
 }
 
 fn largest(sizes: &[f64]) -> f64 {
@@ -309,7 +348,7 @@ pub(crate) fn lateral(analysis: &Analysis, spectrum: &TargetSpectrum) -> Vec<Opt
 /// What is kept of a run.
 struct RunFigures {
     demands: Demands,
-    holds: bool,
+    defect: Option<String>,
     alone: Option<Alone>,
     /// Times in s and sliding displacements in m, with nominal friction.
     sliding: Option<[Vec<f64>; 2]>,
@@ -325,7 +364,10 @@ impl RunFigures {
         let met = struck(&model, &response.demands).into_iter();
         let met = met.chain(flat_geometry(&model, &response.demands));
         Self {
-            holds: response.method == Method::Stepwise || certificate.holds(),
+            defect: (response.method != Method::Stepwise && !certificate.holds()).then(|| {
+                let names = certificate.defects().into_iter().map(|(name, _)| name);
+                names.collect::<Vec<_>>().join(", ")
+            }),
             alone: None,
             sliding,
             noticed: [job.warnings, response.warnings, met.collect()],
@@ -406,7 +448,7 @@ fn sliding(response: &Response) -> Option<[Vec<f64>; 2]> {
 
 impl OnRecord {
     /// Takes what the tables and the figure tell of a run.
-    fn take(&mut self, bound: &Bound, several: bool, kept: RunFigures) -> (Demands, bool) {
+    fn take(&mut self, bound: &Bound, several: bool, kept: RunFigures) -> CertifiedRun {
         let of_bound = |warning: Notice| match several {
             false => warning,
             true => {
@@ -422,7 +464,7 @@ impl OnRecord {
         }
         self.sliding = kept.sliding.unwrap_or_else(|| core::mem::take(&mut self.sliding));
         self.notices.extend(of_response.into_iter().chain(met.into_iter().map(of_bound)));
-        (kept.demands, kept.holds)
+        CertifiedRun { demands: kept.demands, defect: kept.defect }
     }
 }
 
@@ -435,7 +477,8 @@ fn governing_history(
     let peak = of.shape().find("peak_sliding_displacement_m")?.1;
     let bound = of.governing_bound(&peak)?;
     let sizes = of.sizes(&peak, bound);
-    let record = (0..sizes.len()).reduce(|a, b| if sizes[b] > sizes[a] { b } else { a })?;
+    let confirmed = (0..sizes.len()).filter(|&i| !of.records[i].is_unconfirmed());
+    let record = confirmed.reduce(|a, b| if sizes[b] > sizes[a] { b } else { a })?;
     let case = Case { record, bound, scale: of.records[record].scale, ..Case::default() };
     let (_, judged) = with_bound(model, &case, &of.bounds[bound], engine).ok()?;
     Some((record, bound, sliding(&judged.response)?))
@@ -462,7 +505,8 @@ fn table_of_runs(models: &[ModelHistories], shape: DemandShape) -> Table {
         "m/s2",
         rows.iter().map(|(_, on, _)| on.pga_m_per_s2).collect(),
     );
-    let holds = rows.iter().map(|(_, on, i)| Some(on.runs[*i].as_ref().ok()?.1)).collect();
+    let holds =
+        rows.iter().map(|(_, on, i)| Some(on.runs[*i].as_ref().ok()?.defect.is_none())).collect();
     table.columns.push(Column {
         name: "holds".to_owned(),
         unit: String::new(),

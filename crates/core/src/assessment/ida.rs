@@ -18,9 +18,9 @@ use crate::notice::Notice;
 use crate::numerics::fractile;
 use crate::numerics::sort;
 use crate::response::{Response, demand_values};
-use crate::study::Record;
 use crate::study::cases::{Case, CaseRun, OneThread, status};
 use crate::study::engine::Engine;
+use crate::study::{Demanded, Record, TRAVEL_USED_UP};
 use crate::table::{Cells, Column, Table};
 
 /// Runs that a hunt on one record is thought to take, for those who wait.
@@ -31,8 +31,8 @@ const RUNS_OF_A_HUNT: u64 = 30;
 pub struct Curve {
     /// Intensities, rising, > 0.
     pub levels: Vec<f64>,
-    /// The demand at each; not finite where the run failed, which counts as above any limit.
-    pub demands: Vec<f64>,
+    /// What is known of the demand at each.
+    pub demands: Vec<Demanded>,
 }
 
 /// Where a record's curve crosses a limit.
@@ -44,13 +44,30 @@ pub struct Crossing {
     pub reached: bool,
     /// Highest level not reaching the limit, and lowest reaching it, between which the crossing lies.
     pub between: [f64; 2],
+    /// Whether the limit is not reached because runs beyond the level have no answer.
+    pub cut_short: bool,
     /// A level beyond the crossing at which the demand is below the limit again.
     pub returns: Option<f64>,
 }
 
+impl Crossing {
+    /// Whether anything is known of it: of a curve none of whose runs has an answer nothing is.
+    #[must_use]
+    pub fn is_known(&self) -> bool {
+        self.level > 0.0
+    }
+
+    /// The capacity that it is.
+    #[must_use]
+    pub fn capacity(&self) -> Capacity {
+        Capacity { level: self.level, reached: self.reached }
+    }
+}
+
 impl Curve {
     /// Adds a point in its place; a level that is there already is replaced.
-    pub fn insert(&mut self, level: f64, demand: f64) {
+    pub fn insert(&mut self, level: f64, demand: impl Into<Demanded>) {
+        let demand = demand.into();
         let at = self.levels.partition_point(|known| *known < level);
         if self.levels.get(at) == Some(&level) {
             self.demands[at] = demand;
@@ -60,31 +77,32 @@ impl Curve {
         }
     }
 
-    fn reaches(&self, index: usize, limit: f64) -> bool {
-        // What failed is NaN, and reaches.
-        !(self.demands[index] < limit)
-    }
-
     /// The first crossing of a limit > 0 on the curve's points joined by straight lines from the
-    /// origin; where a run failed, the crossing is put at its level.
+    /// origin; where a run is only known to have reached the limit, the crossing is put at its level. Runs of
+    /// which nothing is known are no points: a curve that ends in such runs is known up to them.
     #[must_use]
     pub fn first_crossing(&self, limit: f64) -> Crossing {
-        let n = self.levels.len();
-        let Some(at) = (0..n).find(|&i| self.reaches(i, limit)) else {
-            let last = self.levels.last().copied().unwrap_or(0.0);
-            let between = [last, f64::INFINITY];
-            return Crossing { level: last, reached: false, between, returns: None };
+        let known: Vec<(f64, bool, f64)> = self
+            .levels
+            .iter()
+            .zip(&self.demands)
+            .filter_map(|(level, demand)| Some((*level, demand.reaches(limit)?, demand.value())))
+            .collect();
+        let Some(at) = known.iter().position(|(_, reaches, _)| *reaches) else {
+            let level = known.last().map_or(0.0, |(level, ..)| *level);
+            let cut_short = self.levels.last().is_some_and(|last| *last > level);
+            let between = [level, f64::INFINITY];
+            return Crossing { level, reached: false, between, cut_short, returns: None };
         };
-        let (low, below) =
-            if at == 0 { (0.0, 0.0) } else { (self.levels[at - 1], self.demands[at - 1]) };
-        let (high, above) = (self.levels[at], self.demands[at]);
-        let level = if above.is_finite() && above > below {
+        let (low, below) = at.checked_sub(1).map_or((0.0, 0.0), |i| (known[i].0, known[i].2));
+        let (high, _, above) = known[at];
+        let level = if above > below {
             low + (high - low) * ((limit - below) / (above - below)).clamp(0.0, 1.0)
         } else {
             high
         };
-        let returns = (at..n).find(|&i| !self.reaches(i, limit)).map(|i| self.levels[i]);
-        Crossing { level, reached: true, between: [low, high], returns }
+        let returns = known[at..].iter().find(|(_, reaches, _)| !reaches).map(|(at, ..)| *at);
+        Crossing { level, reached: true, between: [low, high], cut_short: false, returns }
     }
 }
 
@@ -129,7 +147,8 @@ impl Hunt {
         Ok(Self { limit, start, top, resolution: 0.05, tolerance: 0.01 })
     }
 
-    /// Runs one record: `demand` gives its demand at a level, NaN where the run fails.
+    /// Runs one record: `demand` gives its demand at a level, infinite where it is beyond the limit without
+    /// being known, NaN where the run has no answer. The search goes no higher beyond either.
     ///
     /// *Hunt*: the level is doubled from `start` until the demand reaches the limit or `top` is
     /// passed (halved first, where `start` already reaches it). *Fill*: every gap from a tenth of the
@@ -194,19 +213,25 @@ impl Hunt {
     }
 }
 
-/// Fractiles of 16, 50 and 84 % of the demand at one level, over the records' demands there.
+/// Fractiles of 16, 50 and 84 % of the demand at one level, over the records' demands there: what is only known
+/// to have reached a value counts as above all, and that of which nothing is known is left out.
 #[must_use]
-pub fn demand_fractiles(demands: &[f64]) -> [f64; 3] {
-    fractile::fractiles(demands)
+pub fn demand_fractiles(demands: &[Demanded]) -> [f64; 3] {
+    fractile::fractiles(&demands.iter().map(|demand| demand.or_beyond()).collect::<Vec<_>>())
 }
 
 /// Fractiles of 16, 50 and 84 % of the intensity at which the records first reach a limit; a record
-/// that does not reach it counts as above all, so a fractile may be infinite.
+/// that does not reach it counts as above all, so a fractile may be infinite. One whose curve is cut short by
+/// runs without an answer is left out.
 #[must_use]
 pub fn level_fractiles(curves: &[Curve], limit: f64) -> [f64; 3] {
     let of = |curve: &Curve| {
         let crossing = curve.first_crossing(limit);
-        if crossing.reached { crossing.level } else { f64::INFINITY }
+        match (crossing.reached, crossing.cut_short) {
+            (true, _) => crossing.level,
+            (false, false) => f64::INFINITY,
+            (false, true) => f64::NAN,
+        }
     };
     fractile::fractiles(&curves.iter().map(of).collect::<Vec<_>>())
 }
@@ -288,7 +313,7 @@ pub struct IdaRun {
 /// # Errors
 /// [`AssessmentError`] for a demand that is none, levels that do not rise, a hunt without a limit,
 /// records that cannot be scaled, values that make no model, paths that are not varied, and where it is
-/// stopped. A run that fails counts as above any limit.
+/// stopped.
 pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, AssessmentError> {
     let IdaRequest { models, suite, measure, .. } = request;
     let column = models.column(request.demand)?;
@@ -327,6 +352,10 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
     let all_runs = suite.runs(&[], 0.0, engine)?;
     let design = |case: &Case| &parts[kept.partition_point(|&of| of < designs.number(case))];
     let keep = |_: &Case, response: &Response, _: &GroundMotion| demand_values(&response.demands);
+    let demanded = |ran: &CaseRun<Vec<f64>>| {
+        let size = ran.kept.as_ref().map_or(f64::NAN, |values| values[column].abs());
+        Demanded::of(request.demand, size, ran.travel_used_up_m())
+    };
     let records = suite.records.len();
     let curves_count = kept.len() * records;
     // Curve `i` is that of the record `i % records` under the design `i / records` of those kept.
@@ -352,10 +381,10 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
                 let parts = &parts[curve / records];
                 hunt.try_run(|level| {
                     let ran = thread.run(case(curve, (0, level)), (parts, None), keep);
-                    let demand = ran.kept.as_ref().map_or(f64::NAN, |values| values[column]);
+                    let demand = demanded(&ran).against(hunt.limit);
                     runs.push((level, ran));
                     engine.done(1)?;
-                    Ok::<_, Stopped>(demand.abs())
+                    Ok::<_, Stopped>(demand)
                 })?;
                 engine.replan(RUNS_OF_A_HUNT, runs.len() as u64);
                 sort(&mut runs, |a, b| a.0.total_cmp(&b.0));
@@ -364,13 +393,9 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
         }
         (IdaLevels::Hunt { .. }, None) => Vec::new(),
     };
-    let curve = |runs: &Vec<(f64, CaseRun<Vec<f64>>)>| {
-        let demand =
-            |ran: &CaseRun<Vec<f64>>| ran.kept.as_ref().map_or(f64::NAN, |v| v[column].abs());
-        Curve {
-            levels: runs.iter().map(|(level, _)| *level).collect(),
-            demands: runs.iter().map(|(_, ran)| demand(ran)).collect(),
-        }
+    let curve = |runs: &Vec<(f64, CaseRun<Vec<f64>>)>| Curve {
+        levels: runs.iter().map(|(level, _)| *level).collect(),
+        demands: runs.iter().map(|(_, ran)| demanded(ran)).collect(),
     };
     let curves: Vec<Curve> = ran.iter().map(curve).collect();
     let (levels, flat): (Vec<f64>, Vec<CaseRun<Vec<f64>>>) = ran.into_iter().flatten().unzip();
@@ -394,11 +419,15 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
         IdaGroup { value, text, averaged, names, curves: own, fit }
     };
     let groups = groups.into_iter().map(group).collect();
-    let names: Vec<String> = (0..curves_count).map(|curve| record(curve).clone()).collect();
-    let of_curves: Vec<usize> = (0..curves_count).map(|curve| kept[curve / records]).collect();
     let capacities = request.limit.map(|limit| {
-        let mut table = capacities(&curves, limit, &names, measure);
-        let of_pairs = (0..curves_count).map(|curve| clusters[curve % records]);
+        let crossings: Vec<(usize, Crossing)> =
+            curves.iter().map(|curve| curve.first_crossing(limit)).enumerate().collect();
+        let told: Vec<(usize, Crossing)> =
+            crossings.into_iter().filter(|(_, crossing)| crossing.is_known()).collect();
+        let names: Vec<String> = told.iter().map(|(curve, _)| record(*curve).clone()).collect();
+        let of_curves: Vec<usize> = told.iter().map(|(curve, _)| kept[curve / records]).collect();
+        let mut table = capacities(&told, &names, measure);
+        let of_pairs = told.iter().map(|(curve, _)| clusters[curve % records]);
         table.columns.extend(suite.pair_column(of_pairs));
         table.columns.extend(designs.table(&of_curves).columns);
         table
@@ -418,6 +447,10 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
     for (i, column) in models.columns().iter().enumerate() {
         let of = |ran: &CaseRun<Vec<f64>>| ran.kept.as_ref().map_or(f64::NAN, |values| values[i]);
         rows.numbers(&column.name(), column.unit(), flat.iter().map(of).collect());
+    }
+    if models.shape().surfaces > 0 {
+        let used_up = flat.iter().map(|ran| ran.travel_used_up_m().unwrap_or(f64::NAN));
+        rows.numbers(TRAVEL_USED_UP, "m", used_up.collect());
     }
     rows.texts("status", flat.iter().map(|ran| status(ran.kept.as_ref().err())).collect());
     let by = by.map(|by| (by.to_owned(), by_unit));
@@ -510,18 +543,28 @@ impl<'a> Designs<'a> {
 /// Most designs of one analysis: a curve of each record for each of them is kept.
 const MOST_DESIGNS: usize = 100_000;
 
-/// The fit of the first crossings; clustered where several curves share what they are clustered by.
+/// The fit of the first crossings; clustered where several curves share what they are clustered by. A curve of
+/// which nothing is known is left out.
 fn fit_of(curves: &[Curve], limit: f64, clusters: &[usize]) -> Result<Fragility, FitError> {
-    let crossings = curves.iter().map(|curve| curve.first_crossing(limit));
-    let of = |c: Crossing| Capacity { level: c.level, reached: c.reached };
-    let shared = (1..clusters.len()).any(|i| clusters[..i].contains(&clusters[i]));
-    let clusters = if shared { clusters } else { &[] };
-    Fragility::of_capacities_by_record(&crossings.map(of).collect::<Vec<_>>(), clusters)
+    let of = |(curve, cluster): (&Curve, &usize)| {
+        let crossing = curve.first_crossing(limit);
+        crossing.is_known().then(|| (crossing.capacity(), *cluster))
+    };
+    let (capacities, clusters): (Vec<Capacity>, Vec<usize>) =
+        curves.iter().zip(clusters).filter_map(of).unzip();
+    // Numbered without those that are left out.
+    let mut numbers: Vec<usize> = clusters.clone();
+    numbers.sort_unstable();
+    numbers.dedup();
+    let shared = numbers.len() < clusters.len();
+    let number = |cluster: &usize| numbers.partition_point(|other| other < cluster);
+    let clusters: Vec<usize> = clusters.iter().filter(|_| shared).map(number).collect();
+    Fragility::of_capacities_by_record(&capacities, &clusters)
 }
 
 /// The first crossings, a row a curve.
-fn capacities(curves: &[Curve], limit: f64, names: &[String], measure: &LevelMeasure) -> Table {
-    let crossings: Vec<_> = curves.iter().map(|curve| curve.first_crossing(limit)).collect();
+fn capacities(of_curves: &[(usize, Crossing)], names: &[String], measure: &LevelMeasure) -> Table {
+    let crossings: Vec<Crossing> = of_curves.iter().map(|(_, crossing)| *crossing).collect();
     let unit = measure.unit();
     let mut table = Table::default();
     table

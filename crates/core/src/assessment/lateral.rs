@@ -3,6 +3,7 @@
 
 use crate::model::Model;
 use crate::motion::target::TargetSpectrum;
+use crate::slider::Surface;
 
 /// Effective damping and the factor `B_M` by which it divides the spectrum, linear between
 /// (ASCE/SEI 7, table 17.5-1).
@@ -28,6 +29,9 @@ pub struct LateralForce {
     pub damping_factor: f64,
     /// Effective period `T_M = 2π √(W/(k_M g))` in s.
     pub period_s: f64,
+    /// What `D_M` passes, and where that stands in m: the travel of all surfaces, the gap to a stop or the gap of
+    /// the detailing, the least of them. Then there is no such displacement.
+    pub passes: Option<(&'static str, f64)>,
 }
 
 impl LateralForce {
@@ -36,6 +40,7 @@ impl LateralForce {
     #[must_use]
     pub fn of(model: &Model, spectrum: &TargetSpectrum) -> Option<Self> {
         let loops = Loop::of(model)?;
+        let reach = model.slider().reach_m();
         let (weight_n, g) = (model.weight_n(), model.gravity_m_per_s2());
         let at = |displacement_m: f64| -> Option<(Self, f64)> {
             let [force, area_m] = loops.at(displacement_m);
@@ -45,8 +50,15 @@ impl LateralForce {
             let damping_factor = damping_factor(damping_ratio);
             let rate = core::f64::consts::TAU / period_s;
             let of_spectrum = spectrum.at(period_s)? / (rate * rate * damping_factor);
-            let found =
-                Self { displacement_m, stiffness_n_per_m, damping_ratio, damping_factor, period_s };
+            let passes = reach.filter(|(_, reach_m)| displacement_m > *reach_m);
+            let found = Self {
+                displacement_m,
+                stiffness_n_per_m,
+                damping_ratio,
+                damping_factor,
+                period_s,
+                passes,
+            };
             Some((found, of_spectrum - displacement_m))
         };
         // The first fall through 0 of what the spectrum asks for beyond what is there, halved to rounding.
@@ -86,48 +98,111 @@ pub fn damping_factor(ratio: f64) -> f64 {
     }
 }
 
-/// The loop of the isolators pushed slowly: sliding surfaces in series, each `f = μ + u/R` over the weight.
+/// The loop of the isolators pushed slowly: sliding surfaces in series under one force `f` over the weight. A surface
+/// has slid `u_i = min(R_i (f − μ_i), d_i)` where that is positive, a flat one under `f = μ_i` whatever is left of the
+/// displacement, up to its travel `d_i`. In a cycle it slides `4 u_i` against `μ_i`: at its end it waits.
+///
+/// Beyond the travel of all of them the surface that reaches its end last goes on: how far the spectrum asks for is
+/// then known, and that it is too far.
 struct Loop {
-    /// Coefficient and `1/R` in 1/m of each.
-    surfaces: Vec<[f64; 2]>,
+    surfaces: Vec<Surface>,
 }
 
 impl Loop {
     fn of(model: &Model) -> Option<Self> {
-        let mut surfaces = model.slider().slow_loop(model.normal_n(), model.weight_n())?;
-        surfaces.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        Some(Self { surfaces })
+        let surfaces = model.slider().slow_surfaces(model.normal_n(), model.weight_n())?;
+        Some(Self::new(surfaces))
     }
 
-    /// Force over the weight at a displacement, and the area of the loop over the weight in m:
-    /// `f = (D + Σ μ_i R_i)/Σ R_i` over the surfaces that slide, which have `μ_i < f`, and `4 Σ μ_i u_i`.
+    fn new(mut surfaces: Vec<Surface>) -> Self {
+        let travels: Option<f64> = surfaces.iter().map(|surface| surface.travel_m).sum();
+        if travels.is_some() {
+            let ends = |surface: &Surface| end_of(surface).unwrap_or(f64::INFINITY);
+            let last = surfaces.iter().map(ends).fold(0.0, f64::max);
+            let of_last = surfaces.iter_mut().filter(|surface| ends(surface) == last);
+            of_last.for_each(|surface| surface.travel_m = None);
+        }
+        Self { surfaces }
+    }
+
+    /// Force over the weight at a displacement > 0, and the area of the loop over the weight in m.
     fn at(&self, displacement_m: f64) -> [f64; 2] {
-        let (mut radii_m, mut rise_m) = (0.0, 0.0);
-        for (i, [friction, curvature]) in self.surfaces.iter().enumerate() {
-            let next = self.surfaces.get(i + 1).map_or(f64::INFINITY, |[friction, _]| *friction);
-            let flat = *curvature == 0.0;
-            let force = if flat {
-                *friction
-            } else {
-                radii_m += 1.0 / curvature;
-                rise_m += friction / curvature;
-                (displacement_m + rise_m) / radii_m
-            };
-            if force <= next {
-                let of_curved = |[friction, curvature]: &[f64; 2]| {
-                    friction * (force - friction).max(0.0) / curvature
-                };
-                let curved = self.surfaces[..=i].iter().filter(|[_, curvature]| *curvature > 0.0);
-                let area: f64 = curved.clone().map(of_curved).sum();
-                let curved_m: f64 =
-                    curved.map(|[mu, curvature]| (force - mu).max(0.0) / curvature).sum();
-                // A flat surface takes what the others leave.
-                let left_m = if flat { (displacement_m - curved_m).max(0.0) } else { 0.0 };
-                return [force, 4.0 * (area + friction * left_m)];
+        let starts = self.surfaces.iter().map(|surface| surface.friction);
+        let mut forces: Vec<f64> = starts.chain(self.surfaces.iter().filter_map(end_of)).collect();
+        forces.sort_by(f64::total_cmp);
+        forces.dedup();
+        let mut below = 0.0;
+        for force in forces {
+            let curved_m = self.curved_m(force);
+            if displacement_m <= curved_m + self.flat_m(below) {
+                return self.between(below, displacement_m);
+            }
+            if displacement_m <= curved_m + self.flat_m(force) {
+                return [force, self.area_m(force, displacement_m - curved_m - self.flat_m(below))];
+            }
+            below = force;
+        }
+        self.between(below, displacement_m)
+    }
+
+    /// Under a force above one at which something starts or ends, and below the next.
+    fn between(&self, below: f64, displacement_m: f64) -> [f64; 2] {
+        let (mut radii_m, mut rise_m) = (0.0, displacement_m - self.flat_m(below));
+        for surface in &self.surfaces {
+            let Some(radius_m) = surface.radius_m else { continue };
+            if end_of(surface).is_some_and(|end| end <= below) {
+                rise_m -= surface.travel_m.unwrap_or(0.0);
+            } else if surface.friction <= below {
+                radii_m += radius_m;
+                rise_m += radius_m * surface.friction;
             }
         }
-        [f64::INFINITY, 0.0]
+        let force = rise_m / radii_m;
+        if force.is_finite() { [force, self.area_m(force, 0.0)] } else { [f64::INFINITY, 0.0] }
     }
+
+    /// What surfaces with a radius have slid under a force.
+    fn curved_m(&self, force: f64) -> f64 {
+        self.surfaces
+            .iter()
+            .filter(|surface| surface.radius_m.is_some())
+            .map(|s| slid(s, force))
+            .sum()
+    }
+
+    /// What flat surfaces can have slid under a force.
+    fn flat_m(&self, force: f64) -> f64 {
+        self.surfaces
+            .iter()
+            .filter(|surface| surface.radius_m.is_none())
+            .map(|s| slid(s, force))
+            .sum()
+    }
+
+    /// `4 Σ μ_i u_i`, of flat surfaces that have just begun to slide under this force what is left.
+    fn area_m(&self, force: f64, left_m: f64) -> f64 {
+        let of = |surface: &Surface| match surface.radius_m {
+            None if surface.friction >= force => 0.0,
+            _ => surface.friction * slid(surface, force),
+        };
+        4.0 * (self.surfaces.iter().map(of).sum::<f64>() + force * left_m)
+    }
+}
+
+/// What a surface has slid under a force over the weight, in m; of a flat one the most.
+fn slid(surface: &Surface, force: f64) -> f64 {
+    let travel_m = surface.travel_m.unwrap_or(f64::INFINITY);
+    match surface.radius_m {
+        Some(radius_m) => (radius_m * (force - surface.friction)).max(0.0).min(travel_m),
+        None if surface.friction <= force => travel_m,
+        None => 0.0,
+    }
+}
+
+/// The force over the weight at which a surface reaches its end; none without one.
+fn end_of(surface: &Surface) -> Option<f64> {
+    let curvature = surface.radius_m.map_or(0.0, |radius_m| 1.0 / radius_m);
+    Some(surface.friction + surface.travel_m? * curvature)
 }
 
 #[cfg(test)]
@@ -169,7 +244,9 @@ mod tests {
     /// Two surfaces: the outer one slides where the force reaches its friction; each dissipates by itself.
     #[test]
     fn surfaces_in_series_share_the_displacement() {
-        let loops = Loop { surfaces: vec![[0.02, 1.0 / 0.4], [0.08, 1.0 / 4.0]] };
+        let of =
+            |friction: f64, radius_m: Option<f64>| Surface { radius_m, friction, travel_m: None };
+        let loops = Loop::new(vec![of(0.08, Some(4.0)), of(0.02, Some(0.4))]);
         let close = |found: [f64; 2], expected: [f64; 2]| {
             assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15), "{found:?}");
         };
@@ -179,8 +256,84 @@ mod tests {
         let [inner, outer] = [(force - 0.02) * 0.4, (force - 0.08) * 4.0];
         assert!((inner + outer - 0.3_f64).abs() < 1e-15);
         close(loops.at(0.3), [force, 4.0 * (0.02 * inner + 0.08 * outer)]);
-        let flat = Loop { surfaces: vec![[0.1, 0.0]] };
+        let flat = Loop::new(vec![of(0.1, None)]);
         close(flat.at(0.5), [0.1, 4.0 * 0.1 * 0.5]);
+        // A flat surface between two pendulums takes all beyond where it starts.
+        let mixed = Loop::new(vec![of(0.02, Some(0.4)), of(0.05, None), of(0.08, Some(4.0))]);
+        close(mixed.at(0.012), [0.05, 4.0 * 0.02 * 0.012]);
+        close(mixed.at(0.112), [0.05, 4.0 * (0.02 * 0.012 + 0.05 * 0.1)]);
+    }
+
+    /// Regimes of a triple pendulum by Fenz and Constantinou (2008): stiffness over the weight 1/(L2 + L3),
+    /// 1/(L1 + L3), 1/(L1 + L4), 1/(L2 + L4) where the outer surface with less friction has used up its travel and
+    /// 1/(L2 + L3) where both have. Each point lies on a line of that slope through the one before.
+    #[test]
+    fn paper_triple_pendulum_has_five_regimes() {
+        let [l1, l2, l3, l4] = [1.25, 0.18, 0.18, 1.25];
+        let (travel, force_at) =
+            ([0.12, 0.05, 0.05, 0.12], |from: [f64; 2], radius: f64, u: f64| {
+                from[1] + (u - from[0]) / radius
+            });
+        let triple = model(
+            "[slider.triple]\neffective_radius = [\"1.25 m\", \"0.18 m\", \"0.18 m\", \"1.25 m\"]\n\
+             friction = [0.052, 0.012, 0.012, 0.14]\ntravel = [\"0.12 m\", \"0.05 m\", \"0.05 m\", \"0.12 m\"]\n",
+        );
+        let loops = Loop::of(&triple).unwrap();
+        let travel_m = triple.slider().series().unwrap().travel_m().unwrap();
+        assert!((travel_m - travel.iter().sum::<f64>()).abs() < 1e-12);
+        // Where the next surface starts, or the travel of one ends: displacement and force over the weight.
+        let start = [0.0, 0.012];
+        let first = [(0.052 - 0.012) * (l2 + l3), 0.052];
+        let second = [first[0] + (0.14 - 0.052) * (l1 + l3), 0.14];
+        let end1 = 0.052 + travel[0] / l1;
+        let third = [second[0] + (end1 - 0.14) * (l1 + l4), end1];
+        let end4 = 0.14 + travel[3] / l4;
+        let fourth = [third[0] + (end4 - end1) * (l2 + l4), end4];
+        let regimes = [
+            (start, l2 + l3, 0.5 * first[0]),
+            (first, l1 + l3, 0.5 * (first[0] + second[0])),
+            (second, l1 + l4, 0.5 * (second[0] + third[0])),
+            (third, l2 + l4, 0.5 * (third[0] + fourth[0])),
+            (fourth, l2 + l3, 0.5 * (fourth[0] + travel_m)),
+        ];
+        for (from, radius, u) in regimes {
+            let [force, _] = loops.at(u);
+            let expected = force_at(from, radius, u);
+            assert!((force - expected).abs() < 1e-12, "{u} m: {force} for {expected}");
+        }
+        // ASCE/SEI 7, 17.5, worked by hand.
+        let found = LateralForce::of(&triple, &SPECTRUM).unwrap();
+        let per_kn = 500.0 / 100.0;
+        assert!((found.stiffness_n_per_m * per_kn / 1e3 - 4544.0).abs() < 1.0, "{found:?}");
+        assert!(
+            (found.period_s - 2.084).abs() < 5e-4 && (found.displacement_m - 0.3018).abs() < 5e-5
+        );
+        assert!(
+            (found.damping_ratio - 0.1575).abs() < 5e-5
+                && (found.damping_factor - 1.372).abs() < 5e-4
+        );
+        assert_eq!(found.passes, None);
+        // Beyond the travel: the last surface goes on, and that is said.
+        let strong =
+            TargetSpectrum::Code { sds_m_per_s2: 1.6 * G, sd1_m_per_s2: 1.2 * G, tl_s: 8.0 };
+        let found = LateralForce::of(&triple, &strong).unwrap();
+        assert!(found.displacement_m > 0.34, "{found:?}");
+        let (what, reach_m) = found.passes.unwrap();
+        assert!(what == "travel" && (reach_m - 0.34).abs() < 1e-12);
+    }
+
+    /// The gap of the detailing and that of a stop are passed by the displacement too.
+    #[test]
+    fn a_gap_is_passed() {
+        let base = "static_friction = 0.06\nkinetic_friction = 0.06\nradius = \"2.2 m\"\n";
+        for (ends, what) in [
+            ("gap = \"100 mm\"\n", Some("gap")),
+            ("gap = \"2 m\"\n", None),
+            ("[slider.stop]\ngap = \"90 mm\"\nrestitution = 0.5\n", Some("gap to the stop")),
+        ] {
+            let found = LateralForce::of(&model(&format!("{base}{ends}")), &SPECTRUM).unwrap();
+            assert_eq!(found.passes.map(|(what, _)| what), what);
+        }
     }
 
     #[test]

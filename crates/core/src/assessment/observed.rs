@@ -258,7 +258,11 @@ fn fit(
         }
     };
     let unit = intensity.unit.clone();
-    let mut fragility = fragility.map_err(|error| AssessmentError::Fragility { error, unit })?;
+    let mut fragility = fragility.map_err(|error| {
+        // As the table writes them.
+        let (in_si, unit) = intensity.as_written(&unit);
+        AssessmentError::Fragility { error: error.with_intensities_over(in_si), unit }
+    })?;
     let counts = matches!(data, Data::Stripes(_));
     let mut warn = |kind, message| warnings.push(Notice::new(kind, message));
     if clusters.is_none() && counts {

@@ -13,9 +13,9 @@ use crate::motion::GroundMotion;
 use crate::notice::Notice;
 use crate::numerics::fractile::fractiles;
 use crate::response::{DemandColumn, Response, demand_values};
-use crate::study::Record;
 use crate::study::cases::{Case, CaseRun, status};
 use crate::study::engine::Engine;
+use crate::study::{Demanded, Record, TRAVEL_USED_UP};
 use crate::table::Table;
 
 /// A friction that nothing overcomes: a million times what any motion on Earth asks.
@@ -144,7 +144,7 @@ pub struct DemandCurves {
     /// Fractiles of 16, 50 and 84 %, SI: group by group, one entry a value along the axis.
     pub fractiles: Vec<Vec<[f64; 3]>>,
     /// Curves of the single records, SI: group by group, record by record, one entry a value along
-    /// the axis; NaN where a run failed.
+    /// the axis; NaN where a run has no answer.
     pub singles: Vec<Vec<Vec<f64>>>,
 }
 
@@ -172,7 +172,8 @@ impl SpectrumRequest<'_> {
 ///
 /// # Errors
 /// [`AssessmentError`] for an axis that does not rise, a demand that is none, scaling without an
-/// answer, and where it is stopped. A run that fails is counted as above all.
+/// answer, and where it is stopped. A run without an answer counts as above all others in sliding displacement
+/// where it used up its travel; else it is left out of the fractiles.
 pub fn run_spectrum(
     request: &SpectrumRequest<'_>,
     engine: &Engine<'_>,
@@ -228,7 +229,11 @@ pub fn run_spectrum(
     let roof_column = models.column(&roof)?;
     let nothing = f64::NAN;
     let value = |i: usize, key: usize| -> f64 {
-        let Ok(run) = &runs[i].kept else { return nothing };
+        let Ok(run) = &runs[i].kept else {
+            let used_up_m = runs[i].travel_used_up_m();
+            let demand = keys.get(key).map(|key| Demanded::of(key, nothing, used_up_m));
+            return demand.map_or(nothing, Demanded::or_beyond);
+        };
         if let Some(&column) = columns.get(key) {
             let value = run.demands[column];
             return if keys[key] == TOLD[1] { value.abs() } else { value };
@@ -252,8 +257,9 @@ pub fn run_spectrum(
                 fractiles(&(from..from + records).map(|run| value(run, k)).collect::<Vec<_>>())
             };
             let of_group = |group: usize| (0..length).map(|i| of(group, i)).collect();
+            let finite = |value: f64| if value.is_finite() { value } else { nothing };
             let single = |group: usize, record: usize| -> Vec<f64> {
-                (0..length).map(|i| value(at(group, i) + record, k)).collect()
+                (0..length).map(|i| finite(value(at(group, i) + record, k))).collect()
             };
             let singles = |group: usize| (0..records).map(|r| single(group, r)).collect();
             DemandCurves {
@@ -314,6 +320,10 @@ pub fn run_spectrum(
     }
     for (k, key) in ratio_keys.iter().enumerate() {
         rows.numbers(key, "", (0..runs.len()).map(|run| value(run, columns.len() + k)).collect());
+    }
+    if models.shape().surfaces > 0 {
+        let used_up = runs.iter().map(|ran| ran.travel_used_up_m().unwrap_or(nothing));
+        rows.numbers(TRAVEL_USED_UP, "m", used_up.collect());
     }
     rows.texts("status", runs.iter().map(|ran| status(ran.kept.as_ref().err())).collect());
     Ok(SpectrumRun {

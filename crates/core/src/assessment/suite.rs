@@ -94,8 +94,12 @@ pub fn condensed<'a>(of: impl IntoIterator<Item = (&'a str, &'a [Notice])>) -> V
     for (name, notices) in of {
         for notice in notices {
             match noticed.iter_mut().find(|(seen, _)| seen.kind == notice.kind) {
-                Some((_, names)) if names.contains(&name) => {}
-                Some((_, names)) => names.push(name),
+                Some((seen, names)) => {
+                    *seen = seen.clone().severe_where(notice.is_severe);
+                    if !names.contains(&name) {
+                        names.push(name);
+                    }
+                }
                 None => {
                     let message = format!("{name}: {}", notice.message);
                     noticed.push((Notice { message, time_s: None, ..notice.clone() }, vec![name]));
@@ -282,13 +286,7 @@ impl Suite {
     /// records whose files say so. Their demands are not independent.
     #[must_use]
     pub fn clusters(&self) -> Vec<usize> {
-        let records = &self.records;
-        let together = |a: &Record, b: &Record| match (a.pair, b.pair) {
-            (Some(a), Some(b)) => a == b,
-            _ => a.origin.is_with(&b.origin),
-        };
-        let first = |i: usize| (0..i).find(|&j| together(&records[j], &records[i])).unwrap_or(i);
-        (0..records.len()).map(first).collect()
+        records::clusters(&self.records)
     }
 
     /// The name of a record's pair, that of its first component; empty where it is in none.

@@ -2,3 +2,4 @@ mod choice;
 mod fits;
 mod hunts;
 mod runs;
+mod travel;

@@ -269,8 +269,8 @@ static STOP: Section = Section {
     keys: &[
         Key::required(
             "gap",
-            Kind::QuantityOr(Length, Range::Positive, &SIDES),
-            "Sliding displacement at which the block reaches the stop.",
+            Kind::QuantityOr(Length, Range::NotNegative, &SIDES),
+            "Sliding displacement at which the block reaches the stop; 0 where it stands against it.",
         ),
         Key::optional(
             "stiffness",
@@ -304,8 +304,8 @@ static STOP: Section = Section {
 
 static SIDES: Section = Section {
     keys: &[
-        Key::optional("positive", Kind::Quantity(Length, Range::Positive), "Towards +x."),
-        Key::optional("negative", Kind::Quantity(Length, Range::Positive), "Towards -x."),
+        Key::optional("positive", Kind::Quantity(Length, Range::NotNegative), "Towards +x."),
+        Key::optional("negative", Kind::Quantity(Length, Range::NotNegative), "Towards -x."),
     ],
     choices: &[],
 };

@@ -1,8 +1,9 @@
 //! From records that were read to the motion that is analysed: the choice of channel, the vertical
 //! component, the scale, and what is to be said of all that.
 
+use super::unfit::vertical_alone;
 use super::{PairOf, Scale};
-use crate::error::MotionError;
+use crate::error::{MotionError, listed};
 use crate::motion::processing::{Step, process_motion};
 use crate::motion::{Figures, GroundMotion};
 use crate::notice::{Notice, NoticeKind};
@@ -157,6 +158,25 @@ impl Loaded {
         Ok(Some(Self { description, ..self.with(motion, 1.0) }))
     }
 
+    /// With a notice of each file along the surface that is a vertical component; a channel that was asked
+    /// for by name is the one that is wanted. Each file stands with the channel that was asked for.
+    #[must_use]
+    pub fn with_vertical_told(
+        mut self,
+        x: (&str, Option<&str>),
+        along_y: Option<(&str, Option<&str>)>,
+    ) -> Self {
+        let none = Origin::default();
+        let of_y = self.origin.along_y.as_deref().unwrap_or(&none);
+        let files = [Some((x, &self.origin)), along_y.map(|y| (y, of_y))];
+        let told = |((path, channel), origin): ((&str, Option<&str>), &Origin)| {
+            if channel.is_some() { None } else { vertical_alone(path, origin) }
+        };
+        let told: Vec<Notice> = files.into_iter().flatten().filter_map(told).collect();
+        self.warnings.extend(told);
+        self
+    }
+
     /// One of its components, with the label of its place.
     #[must_use]
     pub fn component(&self, component: Component) -> Option<Self> {
@@ -271,8 +291,8 @@ fn choose(wanted: Wanted<'_>, component: Component) -> Result<&Channel, LoadErro
         let describe = |(i, c): (usize, &Channel)| {
             format!("{} {:?} ({})", i + 1, c.name, c.units.quantity().name())
         };
-        let channels: Vec<_> = record.channels.iter().enumerate().map(describe).collect();
-        LoadError::Channel { expected, key, channels: channels.join(", "), component }
+        let channels = listed(record.channels.iter().enumerate().map(describe));
+        LoadError::Channel { expected, key, channels, component }
     };
     if let Some(name) = wanted.channel {
         let channel = record.channel(name).filter(is_acceleration);
@@ -319,7 +339,10 @@ fn of_motion(motion: &GroundMotion, figures: &Figures, differ: &[&str]) -> Vec<N
         _ => vec![(figures, motion.horizontal_m_per_s2(), "")],
     };
     for (figures, samples, axis) in axes {
-        let Figures { pga_m_per_s2, pgv_m_per_s, end_velocity_m_per_s, .. } = *figures;
+        let Figures { pga_m_per_s2, pgv_m_per_s, pgd_m, end_velocity_m_per_s } = *figures;
+        let beyond = record::beyond_earthquakes(pga_m_per_s2, pgv_m_per_s, pgd_m);
+        let beyond = beyond.map(|w| Notice { message: format!("{axis}{}", w.message), ..w });
+        warnings.extend(beyond);
         for w in record::rest(samples[0], pga_m_per_s2, end_velocity_m_per_s, pgv_m_per_s) {
             let at_start = w.kind != NoticeKind::RecordDrift;
             let time_s = Some(if at_start { 0.0 } else { motion.duration_s() });

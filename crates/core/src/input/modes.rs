@@ -1,5 +1,8 @@
 //! `modes.csv`: the modes of a structure as a table, a row a mode.
 
+use std::collections::BTreeSet;
+
+use super::keys::MAX_MODES;
 use super::tree::{Entry, Node, Sources, Spot, Table, Value};
 use crate::error::{InputError, cut, similar};
 
@@ -157,6 +160,7 @@ fn read<'a>(
     let separator = [';', '\t', ','].into_iter().find(|c| header.contains(*c)).unwrap_or(',');
     let names = cells(header, at, separator, source);
     let mut columns: Vec<Column> = Vec::with_capacity(names.len());
+    let (mut known, mut points) = (BTreeSet::new(), BTreeSet::new());
     for cell in &names {
         let column = column(&cell.text.trim_matches('"').to_lowercase()).map_err(|expected| {
             let error = sources.error(&cell.spot, "", expected, format!("{:?}", cut(cell.text)));
@@ -165,12 +169,19 @@ fn read<'a>(
                 ..error
             }
         })?;
-        let key = |column: &Column| match column {
+        let key = match &column {
             Column::Mode(key, _) => Some((*key).to_owned()),
-            Column::Point(name, key) => Some(format!("{name}.{key}")),
+            Column::Point(name, key) => {
+                points.insert(name.clone());
+                Some(format!("{name}.{key}"))
+            }
             Column::Other => None,
         };
-        if key(&column).is_some() && columns.iter().any(|other| key(other) == key(&column)) {
+        if points.len() > MAX_MODES {
+            let (expected, found) = (format!("at most {MAX_MODES} points"), "more");
+            return Err(sources.error(&cell.spot, "", expected, found));
+        }
+        if key.is_some_and(|key| !known.insert(key)) {
             let found = format!("a second column {:?}", cut(cell.text));
             return Err(sources.error(&cell.spot, "", "each column once", found));
         }
@@ -182,8 +193,15 @@ fn read<'a>(
     for (wanted, expected) in [
         (&["period", "frequency"][..], "a column period_s or frequency_hz"),
         (
-            &["participation", "effective_mass", "effective_mass_ratio"],
-            "a column participation_x, effective_mass_kg or effective_mass_ratio",
+            &[
+                "participation",
+                "effective_mass",
+                "effective_mass_ratio",
+                "participation_y",
+                "effective_mass_y",
+                "effective_mass_ratio_y",
+            ],
+            "a column participation_x, effective_mass_kg or effective_mass_ratio, or one along y",
         ),
     ] {
         if !has(wanted) {
@@ -193,6 +211,10 @@ fn read<'a>(
     }
     let mut rows = Vec::new();
     for (at, line) in lines {
+        if rows.len() == MAX_MODES {
+            let spot = Spot { source, span: at..at };
+            return Err(sources.error(&spot, "", format!("at most {MAX_MODES} modes"), "more"));
+        }
         let row = cells(line, at, separator, source);
         if row.len() != columns.len() {
             let spot = Spot { source, span: at..at };

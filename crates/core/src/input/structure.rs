@@ -45,7 +45,11 @@ pub(super) fn structure(
         return Err(values.error(path, expected, "none that can be read here"));
     }
     let shapes_y = shapes_y(values, count, points.len())?;
-    let shapes = shapes(values, "shape", count, points.len())?;
+    let shapes = match shapes_y {
+        // What takes no part along x has no shape there.
+        Some(_) if !is_along_x(values, count) => vec![vec![0.0; points.len()]; count],
+        _ => shapes(values, "shape", count, points.len())?,
+    };
     let factors = match normalisation {
         Normalisation::Mass => None,
         Normalisation::Point(at) => Some(factors(values, &points, &shapes, at)?),
@@ -110,25 +114,52 @@ pub(super) fn structure(
             });
         }
     }
-    if modes.is_empty() {
+    let in_plane = in_plane.unwrap_or_default();
+    if in_plane.is_empty() && motion::in_plane(values) {
+        return Err(unknown_in_plane(values, count));
+    }
+    if modes.is_empty() && in_plane.iter().all(|mode| mode.participation == [0.0; 2]) {
         let expected = "a mode with an effective mass or a participation that is not 0";
         return Err(values.error("structure.mode", expected, "none"));
     }
-    let in_plane = in_plane.unwrap_or_default();
-    if in_plane.is_empty() && motion::in_plane(values) {
-        let keys = ["motion.record_y", "motion.sine_y"];
-        let path = keys.into_iter().find(|path| values.has(path)).unwrap_or("structure.mode");
-        let expected = "modes that say what they do along y: participation_y of each mode, and the shape \
-                        NAME_y beside NAME_x at every point";
-        return Err(values.error(path, expected, "a structure known along x alone"));
-    }
     Ok(Some(Structure { mass_kg, modes, in_plane, points }))
+}
+
+/// A structure that a motion in two directions needs to be known along both.
+fn unknown_in_plane(values: &Values, modes: usize) -> InputError {
+    let keys = ["motion.record_y", "motion.sine_y"];
+    let path = keys.into_iter().find(|path| values.has(path)).unwrap_or("structure.mode");
+    let expected = "modes that say what they do along y: participation_y of each mode, and the shape \
+                    NAME_y beside NAME_x at every point";
+    let has = |j: usize, axis: &str| {
+        let keys = ["effective_mass", "effective_mass_ratio"];
+        keys.iter().any(|key| values.has(&format!("structure.mode.{j}.{key}{axis}")))
+    };
+    let mut points = 1..=values.count("structure.point");
+    let is_known = is_along_y(values, modes)
+        && points.all(|i| values.has(&format!("structure.point.{i}.shape_y")));
+    let found = match (1..=modes).find(|j| has(*j, "") || has(*j, "_y")) {
+        Some(j) if is_known => format!(
+            "an effective mass of mode {j}, which does not tell the sign of its participations along x and y"
+        ),
+        _ => "a structure known along x alone".to_owned(),
+    };
+    values.error(path, expected, found)
 }
 
 /// Whether a mode says what it does along y.
 fn is_along_y(values: &Values, modes: usize) -> bool {
     let keys = ["participation_y", "effective_mass_y", "effective_mass_ratio_y"];
     (1..=modes).any(|j| keys.iter().any(|key| values.has(&format!("structure.mode.{j}.{key}"))))
+}
+
+/// Whether a mode or a point says what it does along x.
+fn is_along_x(values: &Values, modes: usize) -> bool {
+    let keys = ["participation", "effective_mass", "effective_mass_ratio"];
+    let of_mode = |j: usize, key: &&str| values.has(&format!("structure.mode.{j}.{key}"));
+    let points = 1..=values.count("structure.point");
+    (1..=modes).any(|j| keys.iter().any(|key| of_mode(j, key)))
+        || points.into_iter().any(|i| values.has(&format!("structure.point.{i}.shape")))
 }
 
 /// Effective masses of a mode along x and y, added to the sums, which the mass of the structure bounds.
@@ -158,8 +189,9 @@ fn effective_masses(
 }
 
 /// Participations and shapes of unit modal mass along x and y. `L` is the root of the effective mass with the sign
-/// of the participation that is given, else of the momentum `Σ m φ` of the points' masses; `None` where neither
-/// tells it, or where the unit of the shapes is not known.
+/// of the participation that is given, else of the momentum `Σ m φ` of the points' masses; without both it is positive
+/// for a mode that moves along one axis alone, and `None` for one that moves along both, whose signs belong together.
+/// `None` too where the unit of the shapes is not known.
 fn of_unit_mass(
     masses_kg: [f64; 2],
     given: [Option<f64>; 2],
@@ -172,7 +204,8 @@ fn of_unit_mass(
             return Some(0.0);
         }
         let by_masses = || all_have_mass.then(|| momentum(points, shapes[axis]));
-        Some(masses_kg[axis].sqrt().copysign(given[axis].or_else(by_masses)?))
+        let alone = (masses_kg[1 - axis] == 0.0).then_some(1.0);
+        Some(masses_kg[axis].sqrt().copysign(given[axis].or_else(by_masses).or(alone)?))
     };
     let participation = [along(0)?, along(1)?];
     let of_points = shapes[0].iter().zip(shapes[1]).map(|(x, y)| [x / unit, y / unit]);

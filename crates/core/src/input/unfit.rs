@@ -1,6 +1,8 @@
 //! Records that are not what they would be run as.
 
 use super::loaded::Loaded;
+use crate::notice::{Notice, NoticeKind};
+use crate::record::Origin;
 
 /// A record that is not what it is to be run as.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -14,6 +16,15 @@ pub struct Unfit {
     pub expected: String,
     /// What was found.
     pub found: String,
+}
+
+/// What is said of a motion that is run alone along a surface and is a vertical component by its file.
+#[must_use]
+pub fn vertical_alone(path: &str, origin: &Origin) -> Option<Notice> {
+    let reason = origin.vertical(file_name(path))?;
+    let message =
+        format!("{path} is a vertical component ({reason}) and is run as a horizontal one");
+    Some(Notice::new(NoticeKind::VerticalComponent, message))
 }
 
 /// Refuses vertical components where horizontal ones are run, and pairs that are none; gives a sentence

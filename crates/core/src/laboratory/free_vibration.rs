@@ -22,6 +22,11 @@ const LEAST_PART: f64 = 0.2;
 /// Most samples among which the frequency is sought at first.
 const SCANNED: usize = 4000;
 
+/// How much less a straight envelope must leave over than an exponential one, and by how much of the
+/// variance, for dry friction to be what stops the vibration.
+const STRAIGHT_LEAVES: f64 = 0.7;
+const STRAIGHT_GAINS: f64 = 1e-3;
+
 /// What a record of free vibration says.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FreeVibration {
@@ -44,7 +49,8 @@ pub struct FreeVibration {
 /// Assumes one mode and residuals whose memory is short (their correlation length is measured and
 /// widens the intervals, which are those of profile likelihood). Both estimates are refused for
 /// fewer than three cycles, or where the oscillation makes up less than a fifth of the variance;
-/// the damping ratio also where its interval reaches 0 or 0.5.
+/// the damping ratio also where its interval reaches 0 or 0.5, and where the amplitude falls along a
+/// straight line, as under Coulomb friction, rather than along an exponential.
 #[must_use]
 pub fn free_vibration(times_s: &[f64], values: &[f64]) -> FreeVibration {
     let refused = |why: &str, cycles: f64, explained: f64| FreeVibration {
@@ -100,7 +106,22 @@ pub fn free_vibration(times_s: &[f64], values: &[f64]) -> FreeVibration {
         Some((ends, [false, false])) => Estimate::determined(path[0], "Hz", f, ends),
         _ => Estimate::refused(path[0], "Hz", "frequencies a quarter away fit as well"),
     };
+    let straight = straight_explained(times_s, values, f, scale, total);
+    let is_straight = 1.0 - straight < STRAIGHT_LEAVES * (1.0 - explained)
+        && straight - explained > STRAIGHT_GAINS;
     let damping_ratio = match intervals[1] {
+        _ if is_straight => {
+            let why = format!(
+                "the envelope falls along a straight line, as dry (Coulomb) friction makes it, and not \
+                 along an exponential, as viscous damping would: the straight one makes up {:.1} % of \
+                 the variance, the exponential one, of a ratio of {:.1} %, {:.1} %; find the friction \
+                 by identify shaking-table",
+                100.0 * straight,
+                100.0 * xi,
+                100.0 * explained
+            );
+            Estimate::refused(path[1], "", &why)
+        }
         Some((ends, [false, false])) => Estimate::determined(path[1], "", xi, ends),
         Some((ends, [true, false])) => {
             let why =
@@ -166,6 +187,31 @@ fn best_start(problem: &Problem, start_hz: f64, wide_hz: f64) -> Option<Minimum>
     refine(problem, &best?.1)
 }
 
+/// Part of the variance that an oscillation makes up whose amplitude falls along a straight line to 0
+/// and stays there, near a frequency in Hz.
+fn straight_explained(
+    times_s: &[f64],
+    values: &[f64],
+    frequency_hz: f64,
+    scale: f64,
+    total: f64,
+) -> f64 {
+    let duration_s = times_s[times_s.len() - 1] - times_s[0];
+    let residuals = |p: &[f64]| {
+        let envelope = |t: f64| (1.0 - t * p[1]).max(0.0);
+        let (_, left) = under_envelope(times_s, values, TAU * p[0], envelope)?;
+        Some(left.iter().map(|r| r / scale).collect())
+    };
+    // It falls to 0 within the record's twentieth, or not at all.
+    let wide = 0.5 / duration_s;
+    let near = [(frequency_hz - wide).max(0.5 * frequency_hz), frequency_hz + wide];
+    let problem = Problem { bounds: vec![near, [0.0, 20.0 / duration_s]], residuals: &residuals };
+    let starts = [0.3, 0.6, 1.0, 1.5, 3.0, 6.0].map(|k| [frequency_hz, k / duration_s]);
+    let of = |start: &[f64; 2]| refine(&problem, &problem.unit(start)).map(|found| found.sse);
+    let least = starts.iter().filter_map(of).fold(f64::INFINITY, f64::min);
+    1.0 - least * scale * scale / total
+}
+
 /// The linear unknowns `A, B, c` for a frequency in Hz and a damping ratio, and what is left.
 fn oscillation(
     times_s: &[f64],
@@ -175,12 +221,22 @@ fn oscillation(
 ) -> Option<(Vec<f64>, Vec<f64>)> {
     let omega = TAU * frequency_hz;
     let damped = omega * (1.0 - damping_ratio * damping_ratio).max(0.0).sqrt();
+    under_envelope(times_s, values, damped, |t| libm::exp(-damping_ratio * omega * t))
+}
+
+/// The same for any envelope, by the time from the first sample, over a frequency in rad/s.
+fn under_envelope(
+    times_s: &[f64],
+    values: &[f64],
+    damped: f64,
+    envelope: impl Fn(f64) -> f64,
+) -> Option<(Vec<f64>, Vec<f64>)> {
     let rows: Vec<([f64; 3], f64)> = times_s
         .iter()
         .zip(values)
         .map(|(t, value)| {
             let t = t - times_s[0];
-            let decay = libm::exp(-damping_ratio * omega * t);
+            let decay = envelope(t);
             let (sin, cos) = libm::sincos(damped * t);
             ([decay * cos, decay * sin, 1.0], *value)
         })
@@ -283,6 +339,35 @@ mod tests {
     fn coverage_free_vibration() {
         let [f, xi, refused] = covered(200);
         crate::laboratory::hold_to_coverage(&[("frequency", f), ("damping_ratio", xi)], refused);
+    }
+
+    /// A mass on a spring that dry friction stops: half cycles about `±x`, by the exact solution, of
+    /// several amounts of friction, with noise and without.
+    #[test]
+    fn straight_envelopes_are_no_viscous_damping() {
+        let omega = TAU * 1.5;
+        for (friction, noise) in [(0.02, 0.0), (0.03, 0.01), (0.012, 0.005)] {
+            let mut random = Random::new(7);
+            let times_s: Vec<f64> = (0..1500).map(|i| 0.01 * f64::from(i)).collect();
+            let value = |t: f64| {
+                let half = (omega * t / core::f64::consts::PI).floor();
+                // The amplitude of each half cycle is less by twice the friction.
+                let amplitude = 1.0 - (2.0 * half + 1.0) * friction;
+                let centre = if half % 2.0 == 0.0 { friction } else { -friction };
+                if amplitude > 0.0 { centre + amplitude * libm::cos(omega * t) } else { 0.0 }
+            };
+            let values: Vec<f64> =
+                times_s.iter().map(|t| value(*t) + noise * random.normal()).collect();
+            let found = free_vibration(&times_s, &values);
+            let why = found.damping_ratio.why().unwrap_or_else(|| panic!("{friction}: {found:?}"));
+            assert!(why.contains("straight") && why.contains("shaking-table"), "{why}");
+            assert!((found.frequency.value().unwrap() - 1.5).abs() < 0.02);
+        }
+        // Viscous damping stays that, whatever its amount.
+        for xi in [0.005, 0.02, 0.05, 0.1] {
+            let (times_s, values) = record(1.625, xi, 0.01, 12.0, 3);
+            assert!(free_vibration(&times_s, &values).damping_ratio.value().is_some(), "{xi}");
+        }
     }
 
     #[test]

@@ -13,7 +13,7 @@ use super::measured::{Measured, Series};
 use super::shaking_table::{
     Builder, Parameter, TableError, TableFit, TableTest, shaking_table as fit_table,
 };
-use crate::error::{ChoiceError, InputError, RecordError, similar};
+use crate::error::{ChoiceError, InputError, RecordError, listed, similar};
 use crate::input::{self, Analysis, Channel, Override};
 use crate::notice::Notice;
 use crate::study::engine::Engine;
@@ -423,7 +423,11 @@ fn chosen<'a>(measured: &'a Measured, name: Option<&str>) -> Result<&'a Series, 
                 "a quantity in {}, such as the mapping \"storey1_acceleration = COLUMN [g]\"",
                 measured.source_name
             ),
-            _ => format!("one of the quantities {} of {}", names.join(", "), measured.source_name),
+            _ => format!(
+                "one of the quantities {} of {}",
+                listed(names.iter().cloned()),
+                measured.source_name
+            ),
         };
         let nearest = similar(found, names.iter().map(String::as_str));
         let (what, found) = ("channel".to_owned(), found.to_owned());

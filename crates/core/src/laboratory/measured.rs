@@ -411,8 +411,7 @@ fn clock(
         let found = format!("a gap from {from} s to {to} s");
         return Err(columns.error(row, column + 1, expected, found));
     }
-    let (sampling, warnings) = record::of_times(times_s, None)
-        .map_err(|own| columns.error(0, column + 1, "evenly spaced times", own))?;
+    let (sampling, warnings) = record::of_times(times_s, None);
     Ok(match sampling {
         Sampling::Dt(dt_s) => (even(dt_s), Some(dt_s), warnings),
         Sampling::Times(times_s) => {

@@ -15,7 +15,7 @@ use crate::input::Analysis;
 use crate::motion::GroundMotion;
 use crate::motion::intensity::LevelMeasure;
 use crate::motion::target::TargetSpectrum;
-use crate::notice::Notice;
+use crate::notice::{Notice, NoticeKind};
 use crate::study::engine::Engine;
 use crate::units::Dimension;
 
@@ -56,6 +56,7 @@ impl Request {
         };
         let analyses: Vec<Analysis> = models.iter().map(bounded).collect();
         let (scaling, scaled) = self.scaling(target, &analyses)?;
+        warnings.extend(self.assumed_code(&scaling, &analyses));
         let pairs = models.iter().zip(&analyses);
         let on: Vec<ModelOn<'_>> = pairs
             .map(|(on, analysis)| ModelOn { name: on.name, analysis, suite: on.suite })
@@ -75,6 +76,28 @@ impl Request {
                 plan,
             },
         })
+    }
+
+    /// What is taken from ASCE/SEI 7 under a target spectrum of which nobody says after which code it is.
+    fn assumed_code(&self, scaling: &Scaling, analyses: &[Analysis]) -> Option<Notice> {
+        let Scaling::Target(spectrum @ TargetSpectrum::Points { .. }, _) = scaling else {
+            return None;
+        };
+        let range = self.given("periods").is_none();
+        let by_hand = analyses.iter().flat_map(|analysis| lateral(analysis, spectrum));
+        let factor = by_hand.flatten().next().is_some();
+        let taken = match (range, factor) {
+            (false, false) => return None,
+            (false, true) => "the damping factor B_M of the equivalent lateral force is that",
+            (true, _) => {
+                "the range of periods, 0.75 to 1.25 T_M, and the damping factor B_M are those"
+            }
+        };
+        let message = format!(
+            "the target spectrum is a table, and {taken} of ASCE/SEI 7: under another code, such as EN 1998 with 0.2 T to \
+             2 T and η = √(10/(5 + ξ)), give its range as `periods` and do not use B_M"
+        );
+        Some(Notice::new(NoticeKind::CodeAssumed, message))
     }
 
     /// How a suite is scaled for these analyses, and that in words.

@@ -106,21 +106,44 @@ pub struct CaseRun<R, M = ()> {
     pub known: Option<M>,
     /// What was kept of its response, or why there is none.
     pub kept: Result<R, RunError>,
-    /// Kinds of what was noticed of the response.
-    pub noticed: Vec<NoticeKind>,
+    /// What was noticed of the response.
+    pub noticed: Vec<Noticed>,
+}
+
+/// What was noticed of a response, without its message.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Noticed {
+    /// Its kind.
+    pub kind: NoticeKind,
+    /// Whether it is severe, however much its kind weighs.
+    pub is_severe: bool,
 }
 
 impl<R, M> CaseRun<R, M> {
+    /// The travel in m that the run has used up; none where it has an answer, or lacks one for another reason.
+    #[must_use]
+    pub fn travel_used_up_m(&self) -> Option<f64> {
+        self.kept.as_ref().err().and_then(RunError::travel_used_up_m)
+    }
+
     /// A run of which nothing else is known.
     pub(crate) fn of(case: Case, kept: Result<R, RunError>) -> Self {
         Self { case, known: None, kept, noticed: Vec::new() }
     }
 }
 
-/// Kinds of what is noticed of a response that nobody judged.
-pub(super) fn noticed_of(model: &Model, response: &Response) -> Vec<NoticeKind> {
+impl Noticed {
+    /// The kinds of some of them.
+    pub(super) fn kinds(all: &[Self]) -> Vec<NoticeKind> {
+        all.iter().map(|noticed| noticed.kind).collect()
+    }
+}
+
+/// What is noticed of a response that nobody judged.
+pub(super) fn noticed_of(model: &Model, response: &Response) -> Vec<Noticed> {
     let flat = flat_geometry(model, &response.demands);
-    flat.iter().chain(&response.warnings).map(|warning| warning.kind).collect()
+    let of = |notice: &Notice| Noticed { kind: notice.kind, is_severe: notice.is_severe };
+    flat.iter().chain(&response.warnings).map(of).collect()
 }
 
 /// What the motion of a run is made from: one serves all runs that agree on it.
@@ -377,11 +400,14 @@ impl InWords<'_> {
     pub(crate) fn noticed<R, M>(&self, ran: &[CaseRun<R, M>]) -> Vec<Notice> {
         let mut kinds = Vec::new();
         for CaseRun { case, noticed, .. } in ran {
-            noticed.iter().for_each(|kind| tally(&mut kinds, kind, case));
+            noticed.iter().for_each(|noticed| tally(&mut kinds, &noticed.kind, case));
         }
         let told = |(kind, count, case): (NoticeKind, u64, &Case)| {
             let (runs, first) = (ran.len(), self.case(case));
-            Notice::new(kind, format!("{count} of {runs} runs, the first of them {first}"))
+            let mut all = ran.iter().flat_map(|ran| &ran.noticed);
+            let is_severe = all.any(|noticed| noticed.kind == kind && noticed.is_severe);
+            let message = format!("{count} of {runs} runs, the first of them {first}");
+            Notice::new(kind, message).severe_where(is_severe)
         };
         kinds.into_iter().map(told).collect()
     }

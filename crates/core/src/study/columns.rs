@@ -1,6 +1,7 @@
 //! The columns of a study's table.
 
 use super::cases::status;
+use super::demanded::TRAVEL_USED_UP;
 use super::{Row, Study};
 use crate::response::{DemandColumn, InDirections, Response, demand_values};
 use crate::table::{Cells, Column, Field, Kind, Table};
@@ -53,7 +54,7 @@ impl Study {
             Field::number("level", self.level_unit()),
             Field::number("scale", "").required(),
         ];
-        fields.extend(self.has_pairs().then(|| Field::text("pair")));
+        fields.extend(self.has_clusters().then(|| Field::text("pair")));
         fields.extend(self.measures.iter().map(|m| Field::number(m.column(), m.unit())));
         fields.extend(self.has_bounds().then(|| Field::text("friction")));
         let varied = self.design.vary().iter();
@@ -62,6 +63,8 @@ impl Study {
             kind: column.demand.kind.into(),
             ..Field::number(format!("{axis}{}", column.name()), column.unit())
         }));
+        let travels = self.shape.surfaces > 0;
+        fields.extend(travels.then(|| Field::number(TRAVEL_USED_UP, "m")));
         fields.extend([Field::text("warnings"), Field::text("status")]);
         fields
     }
@@ -69,10 +72,16 @@ impl Study {
     /// Index of the first demand among [`Study::fields`].
     #[must_use]
     pub fn first_demand(&self) -> usize {
-        5 + usize::from(self.has_pairs())
+        5 + usize::from(self.has_clusters())
             + self.measures.len()
             + usize::from(self.has_bounds())
             + self.design.vary().len()
+    }
+
+    /// Index of the column of travels that runs have used up, where the model has surfaces in series.
+    #[must_use]
+    pub fn travel_used_up(&self) -> Option<usize> {
+        (self.shape.surfaces > 0).then(|| self.first_demand() + self.demand_columns().len())
     }
 
     /// Rows as the cells of [`Study::fields`].
@@ -90,8 +99,8 @@ impl Study {
             numbers(&|row| self.level(row.case.level).unwrap_or(f64::NAN)),
             numbers(&|row| row.case.scale),
         ];
-        if self.has_pairs() {
-            let pair = |row: &Row| record(row).map_or("", |r| self.pair_name(r)).to_owned();
+        if self.has_clusters() {
+            let pair = |row: &Row| self.cluster_name(row.case.record).to_owned();
             cells.push(texts(&pair));
         }
         cells.extend((0..self.measures.len()).map(|i| numbers(&|row| of(&row.measures, i))));
@@ -103,6 +112,9 @@ impl Study {
         cells.extend(self.demand_columns().iter().enumerate().map(|(i, (_, column))| {
             Cells::of_numbers(column.demand.kind.into(), rows.iter().map(|row| of(&row.demands, i)))
         }));
+        if self.shape.surfaces > 0 {
+            cells.push(numbers(&|row| row.travel_used_up_m().unwrap_or(f64::NAN)));
+        }
         cells.push(texts(&Row::kinds));
         cells.push(texts(&|row| status(row.error.as_ref())));
         cells

@@ -17,6 +17,10 @@ const SMALL_RADIUS_M: f64 = 0.05;
 /// Damping ratio of the storeys above which it is said that it is high.
 const HIGH_DAMPING: f64 = 0.3;
 
+/// Factors on records between which nothing is said of them: FEMA P-1050 and the guidance on ground motions to
+/// ASCE/SEI 7.
+pub const USUAL_FACTORS: core::ops::RangeInclusive<f64> = 0.25..=4.0;
+
 /// Values that are possible and hardly meant.
 pub(crate) fn suspicious(model: &Model) -> Vec<Notice> {
     let coefficient = model.static_friction().into_iter().fold(0.0, f64::max);

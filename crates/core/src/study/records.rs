@@ -58,6 +58,17 @@ pub(crate) fn in_plane(records: &[Record]) -> bool {
     records.iter().any(|record| record.motion.horizontal_y_m_per_s2().is_some())
 }
 
+/// For each record the first one that shares its earthquake and station: the components of a pair, or records whose
+/// files say so. Their demands are not independent.
+pub(crate) fn clusters(records: &[Record]) -> Vec<usize> {
+    let together = |a: &Record, b: &Record| match (a.pair, b.pair) {
+        (Some(a), Some(b)) => a == b,
+        _ => a.origin.is_with(&b.origin),
+    };
+    let first = |i: usize| (0..i).find(|&j| together(&records[j], &records[i])).unwrap_or(i);
+    (0..records.len()).map(first).collect()
+}
+
 /// The name of a record's pair, that of its first component; empty where it is in none.
 pub(crate) fn pair_name<'r>(records: &'r [Record], record: &Record) -> &'r str {
     let first = records.iter().find(|first| record.pair.is_some() && first.pair == record.pair);

@@ -3,9 +3,9 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::cases::{Case, CaseRun, Cases, Runs};
+use super::cases::{Case, CaseRun, Cases, Noticed, Runs};
 use super::engine::Engine;
-use super::notices::{coarse_sampling, longest_step_s};
+use super::notices::{USUAL_FACTORS, coarse_sampling, longest_step_s};
 use super::{Sample, Study, chunks};
 use crate::error::{RunError, Stopped};
 use crate::motion::GroundMotion;
@@ -39,6 +39,12 @@ pub struct Row {
 }
 
 impl Row {
+    /// The travel in m that the run has used up; none where it has an answer, or lacks one for another reason.
+    #[must_use]
+    pub fn travel_used_up_m(&self) -> Option<f64> {
+        self.error.as_ref().and_then(RunError::travel_used_up_m)
+    }
+
     /// The names of its kinds of warnings, joined by `;`.
     #[must_use]
     pub fn kinds(&self) -> String {
@@ -131,7 +137,7 @@ impl Study {
             Ok((demands, of_demands)) => {
                 let step_s = known.map_or(0.0, |known| known.longest_step_s);
                 let before = self.noticed(case, &sample.suspicious, sample.highest_hz, step_s);
-                (demands, warnings([before, of_demands, noticed]), None)
+                (demands, warnings([before, of_demands, Noticed::kinds(&noticed)]), None)
             }
             Err(error) => (vec![f64::NAN; self.demand_columns().len()], Vec::new(), Some(error)),
         };
@@ -148,10 +154,12 @@ impl Study {
         longest_step_s: f64,
     ) -> Vec<NoticeKind> {
         let of_record = self.records.get(case.record).map(|record| &record.notices);
+        let is_far = of_record.is_some() && !USUAL_FACTORS.contains(&case.scale.abs());
+        let far = is_far.then_some(NoticeKind::FactorFar);
         let of_model = coarse_sampling(highest_hz, longest_step_s);
         let of_model = of_model.into_iter().map(|warning| warning.kind);
         let of_record = of_record.into_iter().flatten().map(|notice| notice.kind);
-        of_record.chain(suspicious.iter().copied()).chain(of_model).collect()
+        of_record.chain(far).chain(suspicious.iter().copied()).chain(of_model).collect()
     }
 
     /// The measures of a record at a level, or of the motion that a model makes. Spectra are taken once a

@@ -2,6 +2,7 @@
 
 use super::Study;
 use super::cases::tally;
+use super::demanded::SLIDING;
 use super::engine::Engine;
 use crate::error::Stopped;
 use crate::input::Names;
@@ -34,15 +35,19 @@ pub struct LevelSummary {
     pub demand: DemandColumn,
     /// Runs of the level.
     pub runs: u64,
-    /// Those that failed.
+    /// Those without an answer.
     pub failures: u64,
-    /// Mean of the runs that have a value; NaN where none has.
+    /// Those of them that are known to lie beyond all values: of the sliding displacement those whose travel was
+    /// used up. The others without an answer are left out.
+    pub beyond: u64,
+    /// Mean of the runs that have a value; NaN where none has, and where runs lie beyond.
     pub mean: f64,
-    /// 16 %, 50 % and 84 % quantiles, linear between neighbours of the sorted values.
+    /// 16 %, 50 % and 84 % quantiles, linear between neighbours of the sorted values; infinite where they fall
+    /// on runs that lie beyond.
     pub quantiles: [f64; 3],
     /// Probabilities not exceeded and the quantiles there, rising, where the study has one level.
     pub distribution: Vec<[f64; 2]>,
-    /// The value largest in size.
+    /// The value largest in size; infinite where runs lie beyond.
     pub max: f64,
     /// Its run; `None` where no run has a value.
     pub max_run: Option<u64>,
@@ -74,6 +79,12 @@ impl StudySummary {
         of_first.map(|row| row.failures).sum()
     }
 
+    /// Runs whose travel was used up.
+    #[must_use]
+    pub fn beyond_travel(&self) -> u64 {
+        self.rows.iter().map(|row| row.beyond).sum()
+    }
+
     /// The rows as a table, SI.
     #[must_use]
     pub fn table(&self) -> Table {
@@ -98,6 +109,9 @@ impl StudySummary {
         table.texts("unit", texts(&|row| row.demand.unit().to_owned()));
         table.columns.push(counts("runs", &|row| Some(row.runs)));
         table.columns.push(counts("failures", &|row| Some(row.failures)));
+        if rows.iter().any(|row| row.beyond > 0) {
+            table.columns.push(counts("beyond_travel", &|row| Some(row.beyond)));
+        }
         table.numbers("mean", "", numbers(&|row| row.mean));
         for (name, i) in [("median", 1), ("p16", 0), ("p84", 2)] {
             table.numbers(name, "", numbers(&|row| row.quantiles[i]));
@@ -125,6 +139,8 @@ pub struct Rows<'a, E> {
     pub solved: &'a (dyn Fn(Take<'_, bool>) -> Result<(), E> + Sync),
     /// The values of the demand at an index of [`Study::shape`]'s columns, NaN where there is none.
     pub demand: &'a Passes<'a, E>,
+    /// The travel that each run has used up, NaN where it has not: no runs where nothing can be used up.
+    pub travel_used_up: &'a (dyn Fn(Take<'_, f64>) -> Result<(), E> + Sync),
     /// The warnings of each run, joined by `;`.
     pub warnings: &'a PassesOfTexts<'a, E>,
 }
@@ -147,6 +163,15 @@ impl Study {
             *runs += 1;
             *failures += u64::from(!solved);
         })?;
+        // Of each group the runs whose travel was used up, and the first of them.
+        let mut used_up = vec![(0, None); groups];
+        (rows.travel_used_up)(&mut |run, travel_m| {
+            if !travel_m.is_nan() {
+                let (count, first) = &mut used_up[self.group(run)];
+                *count += 1;
+                first.get_or_insert(run);
+            }
+        })?;
         let mut warned: Vec<(String, u64, u64)> = Vec::new();
         (rows.warnings)(&mut |run, kinds| {
             for kind in kinds.split(';').filter(|kind| !kind.is_empty()) {
@@ -161,7 +186,11 @@ impl Study {
             // What is left has either sign: its fractiles are those of its size.
             let unsigned = column.demand.key.starts_with("residual_");
             let source = Source { study: self, rows, demand: index, unsigned };
-            let figures = figures(&source, groups)?;
+            let mut figures = figures(&source, groups)?;
+            if column.name() == SLIDING {
+                let beyond = figures.iter_mut().zip(&used_up);
+                beyond.for_each(|(figures, (count, first))| figures.take_beyond(*count, *first));
+            }
             let single = self.cases.levels == 1 && column.demand.study_place > 0;
             let steps = if single { STEPS } else { 0 };
             let steps: Vec<f64> = (1..steps).map(|i| i as f64 / STEPS as f64).collect();
@@ -182,6 +211,7 @@ impl Study {
                     demand: column,
                     runs,
                     failures,
+                    beyond: figures.beyond,
                     mean: figures.mean(),
                     quantiles: [quantiles[0], quantiles[1], quantiles[2]],
                     distribution: steps
@@ -254,9 +284,19 @@ struct Figures {
     lost: f64,
     max: f64,
     max_run: Option<u64>,
+    /// Runs that are known to lie beyond all values.
+    beyond: u64,
 }
 
 impl Figures {
+    /// Counts runs that lie beyond all values, with the first of them.
+    fn take_beyond(&mut self, count: u64, first: Option<u64>) {
+        if let Some(run) = first {
+            self.beyond = count;
+            (self.max, self.max_run) = (f64::INFINITY, Some(run));
+        }
+    }
+
     fn add(&mut self, run: u64, value: f64) {
         self.count += 1;
         let sum = self.sum + value;
@@ -272,7 +312,10 @@ impl Figures {
     }
 
     fn mean(&self) -> f64 {
-        if self.count == 0 { f64::NAN } else { (self.sum + self.lost) / self.count as f64 }
+        match (self.count, self.beyond) {
+            (1.., 0) => (self.sum + self.lost) / self.count as f64,
+            _ => f64::NAN,
+        }
     }
 }
 
@@ -307,11 +350,13 @@ fn quantiles<E>(
     figures: &[Figures],
     probabilities: &[f64],
 ) -> Result<Vec<Vec<f64>>, E> {
-    let ranks = |count: u64| -> Vec<((u64, u64), f64)> {
+    // Runs that lie beyond all values come after them.
+    let ranks = |figures: &Figures| -> Vec<((u64, u64), f64)> {
+        let last = (figures.count + figures.beyond).saturating_sub(1);
         let rank = |p: &f64| {
-            let place = p * count.saturating_sub(1) as f64;
+            let place = p * last as f64;
             let below = place.floor();
-            ((below as u64, (below as u64 + 1).min(count.saturating_sub(1))), place - below)
+            ((below as u64, (below as u64 + 1).min(last)), place - below)
         };
         probabilities.iter().map(rank).collect()
     };
@@ -319,7 +364,7 @@ fn quantiles<E>(
         .iter()
         .map(|figures| {
             let start = |rank| Search { prefix: 0, rank };
-            ranks(figures.count).iter().flat_map(|((a, b), _)| [start(*a), start(*b)]).collect()
+            ranks(figures).iter().flat_map(|((a, b), _)| [start(*a), start(*b)]).collect()
         })
         .collect();
     let mut shift = 64_u32;
@@ -362,14 +407,16 @@ fn quantiles<E>(
     }
     let of_level = |(figures, searches): (&Figures, &Vec<Search>)| {
         let mut quantiles = vec![f64::NAN; probabilities.len()];
-        if figures.count == 0 {
+        if figures.count + figures.beyond == 0 {
             return quantiles;
         }
-        for ((quantile, pair), (_, fraction)) in
-            quantiles.iter_mut().zip(searches.chunks_exact(2)).zip(ranks(figures.count))
+        for ((quantile, pair), ((below, above), fraction)) in
+            quantiles.iter_mut().zip(searches.chunks_exact(2)).zip(ranks(figures))
         {
             let [low, high] = [pair[0], pair[1]].map(|search| value_of(search.prefix));
-            *quantile = low + (high - low) * fraction;
+            let last = if fraction > 0.0 { above } else { below };
+            let known = last < figures.count;
+            *quantile = if known { low + (high - low) * fraction } else { f64::INFINITY };
         }
         quantiles
     };
@@ -411,7 +458,13 @@ mod tests {
             rows.iter().for_each(|row| take(row.run, &row.kinds()));
             Ok(())
         };
-        let passes = Rows { solved: &solved, demand: &demand, warnings: &warnings };
+        let travel_used_up = |_: &mut dyn FnMut(u64, f64)| Ok(());
+        let passes = Rows {
+            solved: &solved,
+            demand: &demand,
+            travel_used_up: &travel_used_up,
+            warnings: &warnings,
+        };
         let summary = study.summary("s", &passes, &engine).unwrap();
         let slid = |row: &Row| !row.warnings.contains(&NoticeKind::NothingSlides);
         let still = rows.iter().filter(|row| !slid(row)).count() as u64;

@@ -1,6 +1,6 @@
 //! Rows under test: run again alone, from the model's text, with history and certificate.
 
-use super::cases::{Case, MotionOrigin, noticed_of};
+use super::cases::{Case, MotionOrigin, Noticed, noticed_of};
 use super::engine::Engine;
 use super::notices::{highest_hz, longest_step_s, suspicious};
 use super::rows::{of_demands, warnings};
@@ -76,7 +76,7 @@ impl Study {
             && warnings([
                 noticed,
                 of_demands(&response.demands),
-                noticed_of(&analysis.model, &response),
+                Noticed::kinds(&noticed_of(&analysis.model, &response)),
             ]) == row.warnings;
         let holds = certificate.holds();
         let Certificate {

@@ -3,11 +3,13 @@
 // Helpers of tests may panic as tests do.
 #![allow(clippy::expect_used)]
 
+use crate::common::random::Random as Stream;
 use crate::common::random_devices::{System, coincident, motion};
+use crate::common::sketch::Sketch;
 use slipstick::check::check;
 use slipstick::error::SolveError;
 use slipstick::input;
-use slipstick::model::{Contents, Model};
+use slipstick::model::{Contents, Model, Stop, StopKind};
 use slipstick::motion::GroundMotion;
 use slipstick::notice::NoticeKind;
 use slipstick::response::{Demands, Response};
@@ -499,4 +501,111 @@ fn a_rate_of_friction_is_limited_by_the_fading_of_the_motion() {
     for (rate_s_per_m, velocity_m_per_s) in [(100.0, 1.0), (1e8, 1e-6)] {
         assert!(answer(rate_s_per_m, velocity_m_per_s).is_ok(), "{rate_s_per_m} s/m");
     }
+}
+
+/// The samples of a file of times and values.
+fn columns(text: &str) -> (Vec<f64>, Vec<f64>) {
+    let rows = text.lines().skip(1).map(|line| {
+        let (time_s, value) = line.split_once(',').expect("two columns");
+        let number = |text: &str| text.trim().parse::<f64>().expect("a number");
+        (number(time_s), number(value))
+    });
+    rows.unzip()
+}
+
+/// Contents of equal coefficients on a pendulum under vertical motion: they let go and stop once, not without end.
+#[test]
+fn contents_under_vertical_motion_do_not_chatter() {
+    let text = include_str!("../../../../data/reference/chatter/contents-vertical-radius.toml");
+    let model = input::parse("m.toml", text, &[]).expect("a model").model;
+    let (times_s, x) =
+        columns(include_str!("../../../../data/reference/chatter/contents-vertical-radius-x.csv"));
+    let (_, up) =
+        columns(include_str!("../../../../data/reference/chatter/contents-vertical-radius-v.csv"));
+    let motion = ground(&times_s, &x, Some(&up));
+    let found = response(&model, &motion);
+    assert!(found.events.len() < 10_000, "{} events", found.events.len());
+    assert_eq!(alarm(&model, &motion, &found), None);
+}
+
+/// Stops that the block stands against: pads of a spring alone on both sides are a spring.
+#[test]
+fn pads_without_a_gap_are_a_spring() {
+    for seed in 0..60 {
+        let mut x = Sketch::shaken(&mut Stream::new(90_001 + seed));
+        x.tilt = 0.0;
+        let stiffness_n_per_m = x.block * 400.0;
+        let sprung = Sketch { spring: x.spring + stiffness_n_per_m, ..x.clone() };
+        let stop = Stop::elastic([Some(0.0); 2], stiffness_n_per_m, 0.0);
+        let padded = Sketch { stop: Some(stop), ..x };
+        let [(a, motion), (b, _)] = [sprung, padded].map(|x| x.build());
+        let [a, b] = [(&a, response(&a, &motion)), (&b, response(&b, &motion))];
+        assert_eq!(alarm(b.0, &motion, &b.1), None, "{seed}");
+        let close = check(a.0, &motion, &a.1).closest_call;
+        if close.is_none_or(|call| call.margin > 1e-6) {
+            assert_eq!(difference(&a.1.demands, &b.1.demands, SAME), None, "{seed}");
+        }
+    }
+}
+
+/// A block between walls on both sides stands still.
+#[test]
+fn walls_without_a_gap_hold_a_block() {
+    let stop = "[slider.stop]\ngap = \"0 mm\"\nrestitution = 0.5\n";
+    let model = model(&friction([0.2, 0.15]), stop);
+    let motion = ground(&[0.0, 0.5, 1.0, 1.5, 2.0], &[0.0, 5.0, -5.0, 3.0, 0.0], None);
+    let found = response(&model, &motion);
+    assert_eq!(found.demands.peak_sliding_displacement_m, 0.0);
+    assert_eq!(found.demands.sliding_path_m, 0.0);
+    assert_eq!(alarm(&model, &motion, &found), None);
+}
+
+/// A block that is pushed against a wall stays there and, pulled away, comes back to it at the speed of the closed form.
+#[test]
+fn closed_form_block_against_a_wall() {
+    let stop = "[slider.stop]\ngap = { positive = \"0 mm\" }\nrestitution = 0\n[analysis]\ngravity = \"10 m/s2\"\n";
+    let model = model(&friction([0.1; 2]), stop);
+    // Held by the wall for 1 s; then away by 2 m/s² less 1 m/s² of friction for 1 s, and back.
+    let times_s = [0.0, 1.0, 1.0, 2.0, 2.0, 6.0];
+    let motion = ground(&times_s, &[-2.0, -2.0, 2.0, 2.0, -3.0, -3.0], None);
+    let found = response(&model, &motion);
+    assert_eq!(alarm(&model, &motion, &found), None);
+    // s = −0.5 m at 1 m/s after 2 s; it stops after 0.25 s at −0.625 m, and comes back by 2 m/s².
+    let d = &found.demands;
+    assert!((d.min_sliding_displacement_m + 0.625).abs() < 1e-14, "{d:?}");
+    assert_eq!((d.max_sliding_displacement_m, d.residual_sliding_displacement_m), (0.0, 0.0));
+    let speed = d.stop.expect("a stop").peak_impact_speed_m_per_s;
+    assert!((speed - (2.0_f64 * 2.0 * 0.625).sqrt()).abs() < 1e-13, "{speed}");
+}
+
+/// Random models that stand against a stop on one side.
+fn against_a_stop(seeds: std::ops::Range<u64>) {
+    for seed in seeds {
+        let random = &mut Stream::new(70_001 + seed);
+        let mut x = Sketch::shaken(random);
+        x.equip(random);
+        let rate = random.between(10.0, 80.0);
+        let kind = match seed % 3 {
+            0 => StopKind::Rigid { restitution: 0.0 },
+            1 => StopKind::Rigid { restitution: random.between(0.1, 0.9) },
+            _ => StopKind::Elastic {
+                stiffness_n_per_m: x.block * rate * rate,
+                damper_n_s_per_m: x.block * rate * random.of(&[0.0, 0.1, 1.0]),
+            },
+        };
+        x.s = if random.chance(0.7) { 0.0 } else { -x.s.abs() };
+        let other = random.chance(0.5).then(|| 1.1 * x.s.abs() + 0.05);
+        x.stop = Some(Stop { gap_m: [Some(0.0), other], kind });
+        let (model, motion) = x.build();
+        match exact(&model, &motion) {
+            Ok(found) => assert_eq!(alarm(&model, &motion, &found), None, "{seed}"),
+            Err(SolveError::EndOfTravel { .. }) => {}
+            Err(error) => panic!("{seed}: {error}"),
+        }
+    }
+}
+
+#[test]
+fn prop_models_against_a_stop_are_certified() {
+    against_a_stop(0..300);
 }

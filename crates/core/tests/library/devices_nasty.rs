@@ -230,7 +230,7 @@ fn differences(system: &System, expected: &Reference) -> Result<f64, String> {
     let slack_s = TOLERANCE * end_s;
     let response = match exact(&system.model, &motion(system, 1.0)) {
         Ok(response) => response,
-        Err(SolveError::EndOfTravel { time_s }) => {
+        Err(SolveError::EndOfTravel { time_s, .. }) => {
             return match expected.end_of_travel_s {
                 Some(wanted_s) if (time_s - wanted_s).abs() <= slack_s => Ok(0.0),
                 wanted_s => Err(format!("end of travel: expected {wanted_s:?}, found {time_s}")),

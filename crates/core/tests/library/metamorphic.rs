@@ -197,8 +197,8 @@ fn exact_twins(units: Units, change: impl Fn(&Sketch) -> [Sketch; 2]) {
             (Ok(a), Ok(b)) => first_other(&a, &b, units, 0.0)
                 .or_else(|| other_certificate(&certified(&x, &a), &certified(&y, &b), units)),
             (
-                Err(SolveError::EndOfTravel { time_s: a }),
-                Err(SolveError::EndOfTravel { time_s: b }),
+                Err(SolveError::EndOfTravel { time_s: a, .. }),
+                Err(SolveError::EndOfTravel { time_s: b, .. }),
             ) if a * units.time == b => None,
             (a, b) => Some(format!("{:?} became {:?}", a.err(), b.err())),
         }

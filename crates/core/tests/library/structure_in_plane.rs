@@ -4,13 +4,11 @@
 // Helpers of tests may panic as tests do; the numbers of a run are for people who look for them with --nocapture.
 #![allow(clippy::expect_used, clippy::disallowed_macros)]
 
-use crate::common::eigen::modes_of;
-use crate::common::in_plane::{cases, model as model_of_case, motion as motion_of_case};
+use crate::common::by_modes::{by_modes, cut_and_turned, structure_of, turned, with_structure};
+use crate::common::in_plane::{cases, model as model_of_case, motion as motion_of_case, taft};
 use slipstick::check::check;
-use slipstick::model::{
-    AlongY, Block, Damping, Frame, InitialState, ModeInPlane, Model, Slider, Structure,
-    StructureMode, StructurePoint,
-};
+use slipstick::input::{self, Override};
+use slipstick::model::{AlongY, Block, Damping, Frame, InitialState, Model, Slider};
 use slipstick::motion::GroundMotion;
 use slipstick::response::{Demands, Response};
 use slipstick::slider::Friction;
@@ -18,94 +16,6 @@ use slipstick::solver::exact;
 
 /// Largest difference of a figure over its size: that of rounding.
 const AGREED: f64 = 1e-10;
-
-/// A structure of such modes; along x alone those that take part there.
-fn structure(mass_kg: f64, in_plane: Vec<ModeInPlane>, points: Vec<StructurePoint>) -> Structure {
-    let along_x = in_plane.iter().filter(|mode| mode.participation[0] != 0.0);
-    let modes = along_x.map(|mode| StructureMode {
-        frequency_rad_per_s: mode.frequency_rad_per_s,
-        damping_ratio: mode.damping_ratio,
-        effective_mass_kg: mode.participation[0] * mode.participation[0],
-        points: mode.points.iter().map(|shape| shape[0] * mode.participation[0]).collect(),
-    });
-    Structure { mass_kg, modes: modes.collect(), in_plane, points }
-}
-
-/// The same model with its frame as modes.
-fn by_modes(model: &Model) -> Model {
-    let (frame, y) = (model.frame(), model.along_y());
-    let m = &frame.masses_kg;
-    let axes = [
-        (&frame.stiffnesses_n_per_m, &frame.damping, model.initial().clone()),
-        (&y.stiffnesses_n_per_m, &y.damping, y.initial.clone()),
-    ];
-    let mut all = Vec::new();
-    for (axis, (k, damping, initial)) in axes.into_iter().enumerate() {
-        for (omega, shape) in modes_of(m, k) {
-            let l: f64 = shape.iter().zip(m).map(|(phi, m)| phi * m).sum();
-            let damping_ratio = match damping {
-                Damping::Ratio(ratio) => *ratio,
-                Damping::Dampers(c) => c[0] / (2.0 * m[0] * omega),
-            };
-            let along = |x: f64| if axis == 0 { [x, 0.0] } else { [0.0, x] };
-            let amplitude = |x: &Option<Vec<f64>>| -> f64 {
-                let given = x.iter().flatten().zip(&shape).zip(m);
-                given.map(|((x, phi), m)| x * phi * m).sum::<f64>() / l.abs()
-            };
-            let start = [&initial.storey_displacement_m, &initial.storey_velocity_m_per_s];
-            let mode = ModeInPlane {
-                frequency_rad_per_s: omega,
-                damping_ratio,
-                participation: along(l),
-                points: shape.iter().map(|phi| along(*phi)).collect(),
-            };
-            all.push((mode, start.map(amplitude)));
-        }
-    }
-    all.sort_by(|a, b| a.0.frequency_rad_per_s.total_cmp(&b.0.frequency_rad_per_s));
-    let mut height_m = 0.0;
-    let points = (0..m.len()).map(|i| StructurePoint {
-        name: format!("floor {}", i + 1),
-        height_m: frame.heights_m.as_ref().map(|heights_m| {
-            height_m += heights_m[i];
-            height_m
-        }),
-        mass_kg: Some(m[i]),
-    });
-    let points = points.collect();
-    let start = |which: usize| Some(all.iter().map(|(_, start)| start[which]).collect());
-    let initial_y = InitialState {
-        storey_displacement_m: start(0),
-        storey_velocity_m_per_s: start(1),
-        ..y.initial.clone()
-    };
-    let in_plane = all.into_iter().map(|(mode, _)| mode).collect();
-    let structure = structure(m.iter().sum(), in_plane, points);
-    let initial = InitialState {
-        storey_displacement_m: None,
-        storey_velocity_m_per_s: None,
-        ..model.initial().clone()
-    };
-    with_structure(model, structure, initial, initial_y)
-}
-
-fn with_structure(
-    like: &Model,
-    structure: Structure,
-    initial: InitialState,
-    initial_y: InitialState,
-) -> Model {
-    let along_y = AlongY {
-        stiffnesses_n_per_m: Vec::new(),
-        damping: Damping::Ratio(0.0),
-        width_m: like.along_y().width_m,
-        initial: initial_y,
-    };
-    let block = Block { mass_kg: like.bare_block_kg(), ..*like.block() };
-    Model::with_modes(block, like.slider().clone(), structure, like.gravity_m_per_s2(), initial)
-        .and_then(|model| model.with_along_y(along_y))
-        .expect("a structure")
-}
 
 /// The figures of a response or of an axis, each with the size over which it is compared.
 fn figures(d: &Demands, root: &Demands) -> Vec<(String, f64, f64)> {
@@ -255,26 +165,6 @@ fn frames_of_1_5_and_20_storeys_run_both_ways() {
     }
 }
 
-/// Modes that move along x and y at once: those of the frame at an angle, of which some are cut, so that what moves
-/// with the block is not as much along x as along y and joins both.
-fn cut_and_turned(model: &Model, kept: usize, angle: f64) -> Model {
-    let whole = by_modes(model);
-    let mut structure = whole.structure().expect("modes").clone();
-    structure.in_plane.truncate(kept);
-    let turn = turned(angle);
-    for mode in &mut structure.in_plane {
-        mode.participation = turn(mode.participation);
-        mode.points.iter_mut().for_each(|shape| *shape = turn(*shape));
-    }
-    let structure = self::structure(structure.mass_kg, structure.in_plane, structure.points);
-    with_structure(&whole, structure, InitialState::rest(), InitialState::rest())
-}
-
-fn turned(angle: f64) -> impl Fn([f64; 2]) -> [f64; 2] {
-    let (sine, cosine) = (libm::sin(angle), libm::cos(angle));
-    move |[x, y]| [cosine * x - sine * y, sine * x + cosine * y]
-}
-
 /// A structure turned with its motion gives turned vectors.
 #[test]
 fn a_turned_structure_gives_turned_vectors() {
@@ -321,6 +211,103 @@ fn a_turned_structure_gives_turned_vectors() {
             assert!(worst <= 1e-11, "{name}: {worst:.1e}");
         }
     }
+}
+
+/// A building of the examples of which the first modes are given, in two directions.
+fn building(modes: usize) -> Model {
+    let text = include_str!("../../../../examples/structures/building.toml");
+    let table = include_str!("../../../../examples/structures/building-modes.csv");
+    let rows: Vec<&str> = table.lines().take(1 + modes).collect();
+    let modes = Override::modes("building-modes.csv", &rows.join("\n"));
+    let record_y = Override::parse("motion.record_y=taft-111.txt").expect("a key");
+    input::parse("building.toml", text, &[modes, record_y]).expect("a model").model
+}
+
+/// While a block comes to rest the direction of friction turns on to its limit, however slow the block is by then: a
+/// peak at a stop may be there.
+#[test]
+fn peaks_at_a_stop_count_all_directions_up_to_the_last() {
+    let motion = taft(0.5, 1150);
+    for modes in [3, 7] {
+        solved(&format!("{modes} modes"), &building(modes), &motion);
+    }
+    let response = solved("all modes", &building(9), &motion);
+    let [_, y] = &response.in_plane.as_ref().expect("two directions").axes;
+    // By the limit of the equation of the last approach, at the stop at 11.1577 s.
+    let found = y.peak_block_acceleration_m_per_s2;
+    assert!((found - 3.660966).abs() < 5e-7, "{found}");
+}
+
+/// A structure with all its modes, of which the digits are rounded: what moves with the block is a multiple of the
+/// identity but for rounding, and the answer that of the frame.
+#[test]
+fn rounded_participations_change_no_answer() {
+    let whole = frame(3, sliders()[0].1.clone());
+    let motion = motion(table(800));
+    let exact_modes = solved("all digits", &by_modes(&whole), &motion);
+    for part in [1e-15, 1e-13, 1e-11] {
+        let mut structure = by_modes(&whole).structure().expect("modes").clone();
+        for (j, mode) in structure.in_plane.iter_mut().enumerate() {
+            let factor = 1.0 - part * (1 + j % 3) as f64;
+            mode.participation = mode.participation.map(|l| factor * l);
+        }
+        let rounded = structure_of(structure.mass_kg, structure.in_plane, structure.points);
+        let model = with_structure(&whole, rounded, InitialState::rest(), InitialState::rest());
+        let name = format!("rounded by {part:e}");
+        assert_alike(&name, &exact_modes, &solved(&name, &model, &motion));
+    }
+}
+
+/// A model of a block of 300 t on a pendulum with a structure of 500 t, under Taft.
+fn on_pendulum(structure: &str, overrides: &[Override]) -> Model {
+    let text = format!(
+        "[block]\nmass = \"300 t\"\n[slider]\nstatic_friction = 0.06\nkinetic_friction = 0.05\n\
+         radius = \"2.5 m\"\n[structure]\nmass = \"500 t\"\n{structure}\n"
+    );
+    input::parse("m.toml", &text, overrides).expect("a model").model
+}
+
+/// A mode along y alone needs no key along x: one alone, by any of its keys and in a table, moves as the same mode
+/// along x under the exchanged motion.
+#[test]
+fn modes_along_y_alone_are_modes() {
+    let mode = |key: &str| {
+        format!("[[structure.mode]]\nperiod = \"0.4 s\"\ndamping_ratio = 0.03\n{key}\n")
+    };
+    let pair = taft(0.3, 800);
+    let y = pair.horizontal_y_m_per_s2().expect("y").to_vec();
+    let exchanged = GroundMotion::evenly_spaced(0.01, y, None)
+        .and_then(|motion| motion.with_y(pair.horizontal_m_per_s2().to_vec()))
+        .expect("a pair");
+    let along_x = on_pendulum(&mode("participation = 700\nparticipation_y = 0"), &[]);
+    let expected = solved("along x", &along_x, &exchanged);
+    for key in
+        ["participation_y = 700", "effective_mass_y = \"490 t\"", "effective_mass_ratio_y = 0.98"]
+    {
+        let pair_of_records = Override::parse("motion.record_y=y.txt").expect("a key");
+        let record = Override::parse("motion.record=x.txt").expect("a key");
+        let model = on_pendulum(&mode(key), &[record, pair_of_records]);
+        let found = solved(key, &model, &pair);
+        let [a, b] = [&expected, &found].map(|r| &r.demands);
+        let near = |a: f64, b: f64| (a - b).abs() <= 1e-10 * b;
+        assert!(near(a.peak_sliding_displacement_m, b.peak_sliding_displacement_m), "{key}");
+        assert!(near(a.peak_base_shear_n, b.peak_base_shear_n), "{key}");
+        // Nothing of it moves along x alone.
+        let alone = GroundMotion::evenly_spaced(0.01, pair.horizontal_m_per_s2().to_vec(), None);
+        let refused = exact(&on_pendulum(&mode(key), &[]), &alone.expect("a motion"));
+        assert_eq!(
+            refused.expect_err("one direction").to_string(),
+            "one horizontal direction: expected a model without a structure whose modes all move along y"
+        );
+    }
+    let table = "period_s,damping_ratio,effective_mass_ratio_y,roof_y\n0.4,0.03,0.98,0.0015\n";
+    let modes = [Override::modes("modes.csv", table)];
+    let model = on_pendulum("modes = \"modes.csv\"", &modes);
+    let found = solved("table", &model, &pair);
+    let [a, b] = [&expected, &found].map(|r| r.demands.peak_sliding_displacement_m);
+    assert!((a - b).abs() <= 1e-10 * b);
+    let [x, y] = &found.in_plane.as_ref().expect("two directions").axes;
+    assert!(y.points[0].peak_displacement_m > 0.0 && x.points[0].peak_displacement_m == 0.0);
 }
 
 /// A printed figure of a point or of an axis that is not so is found, and so is a state.

@@ -91,9 +91,45 @@ pub(super) struct Rounding {
 #[derive(Default)]
 pub(super) struct Comparison {
     pub(super) worst: f64,
+    /// What is compared now: the axis, and the demand of a part with its number from 1.
+    axis: &'static str,
+    now: (&'static str, usize, &'static str),
+    /// What was compared when the worst was found.
+    found: Option<(&'static str, (&'static str, usize, &'static str))>,
 }
 
 impl Comparison {
+    /// What comes next is of an axis, `x.` or `y.`.
+    pub(super) fn along(&mut self, axis: &'static str) {
+        self.axis = axis;
+    }
+
+    /// What comes next is this demand.
+    pub(super) fn of(&mut self, demand: &'static str) {
+        self.now = ("", 0, demand);
+    }
+
+    /// What comes next is this demand of a part, by its index.
+    fn of_part(&mut self, part: &'static str, index: usize, demand: &'static str) {
+        self.now = (part, index + 1, demand);
+    }
+
+    /// The key of the demand with the largest difference.
+    pub(super) fn worst_of(&self) -> Option<String> {
+        let (axis, (part, number, demand)) = self.found?;
+        Some(match part {
+            "" => format!("{axis}{demand}"),
+            _ => format!("{axis}{part}{number}_{demand}"),
+        })
+    }
+
+    fn take(&mut self, difference: f64) {
+        let worst = larger(self.worst, difference);
+        if worst.to_bits() != self.worst.to_bits() {
+            (self.worst, self.found) = (worst, Some((self.axis, self.now)));
+        }
+    }
+
     /// A number, of which `rounding` is no difference, over a peak.
     pub(super) fn number(&mut self, printed: f64, own: f64, rounding: f64, peak: f64) {
         self.within(printed, [own, own, peak], rounding);
@@ -103,13 +139,13 @@ impl Comparison {
     fn within(&mut self, printed: f64, [least, most, peak]: [f64; 3], rounding: f64) {
         let difference = (printed - most).max(least - printed) - rounding;
         if !(difference <= 0.0) {
-            self.worst = larger(self.worst, difference / peak.abs());
+            self.take(difference / peak.abs());
         }
     }
 
     pub(super) fn same(&mut self, is: bool) {
         if !is {
-            self.worst = larger(self.worst, 1.0);
+            self.take(1.0);
         }
     }
 
@@ -147,12 +183,13 @@ pub(super) fn of_directions(
     rounding: &Rounding,
 ) {
     let printed = [
-        d.peak_sliding_displacement_m,
-        d.max_sliding_displacement_m,
-        d.min_sliding_displacement_m,
-        d.residual_sliding_displacement_m,
+        ("peak_sliding_displacement_m", d.peak_sliding_displacement_m),
+        ("max_sliding_displacement_m", d.max_sliding_displacement_m),
+        ("min_sliding_displacement_m", d.min_sliding_displacement_m),
+        ("residual_sliding_displacement_m", d.residual_sliding_displacement_m),
     ];
-    for (printed, own_m) in printed.into_iter().zip(own.sliding_m) {
+    for ((name, printed), own_m) in printed.into_iter().zip(own.sliding_m) {
+        c.of(name);
         c.number(printed, own_m, rounding.displacement_m, own.scale_m);
     }
     of_peaks(c, model, d, own, rounding);
@@ -170,10 +207,13 @@ fn of_sums(
     let instants_s = (own.events.list.len() + 1) as f64 * rounding.instant_s;
     let near_m = rounding.displacement_m;
     let sums = &own.totals.interfaces[0];
+    c.of("sliding_at_end");
     c.same(d.sliding_at_end == (h.modes(h.len() - 1)[0] != Mode::Stick));
+    c.of("sliding_time_s");
     c.number(d.sliding_time_s, sums.sliding_s, instants_s, sums.sliding_s);
     // A path of many strokes is rounded in each.
     let strokes = if peak_m > near_m { sums.path_m / peak_m } else { 1.0 };
+    c.of("sliding_path_m");
     c.number(d.sliding_path_m, sums.path_m, near_m * strokes.max(1.0), sums.path_m);
     instants_s
 }
@@ -181,6 +221,7 @@ fn of_sums(
 /// The least margin of the decisions at stops.
 fn of_stops(c: &mut Comparison, response: &Response, own: &Recomputed<'_>) {
     let closest = own.totals.closest_stop.filter(|_| response.method == Method::Exact);
+    c.of("closest_stop");
     match (response.demands.closest_stop, closest) {
         (Some(printed), Some(margin)) => {
             c.number(printed, margin, own.totals.stop_rounding, 1.0);
@@ -207,8 +248,10 @@ fn of_peaks(
     let (force_n, near_m) = (rounding.force_n, rounding.displacement_m);
     let over = |output: Output, divisor: f64| own.peak(output).map(|peak| peak / divisor);
     let near = rounding.velocity_m_per_s;
+    c.of("peak_sliding_velocity_m_per_s");
     c.within(d.peak_sliding_velocity_m_per_s, own.peak(Output::Velocity), near);
     let near = force_n / model.block().mass_kg;
+    c.of("peak_block_acceleration_m_per_s2");
     c.within(d.peak_block_acceleration_m_per_s2, own.peak(Output::Block), near);
     // What rounding of forces makes of an acceleration: of a point through the oscillators of its modes.
     let of_mode = |i: usize| {
@@ -219,33 +262,52 @@ fn of_peaks(
         Some(_) => 1.0 / (of_mode(i) + 1.0 / model.block().mass_kg),
         None => model.frame().masses_kg[i],
     };
-    for (printed, coefficient, output) in [
-        (d.peak_base_shear_n, d.base_shear_coefficient, Output::BaseShear),
-        (d.peak_friction_force_n, d.friction_coefficient_used, Output::FrictionForce),
-        (d.peak_slider_force_n, d.slider_force_coefficient, Output::SliderForce),
+    for (name, printed, coefficient, output) in [
+        ("peak_base_shear_n", d.peak_base_shear_n, d.base_shear_coefficient, Output::BaseShear),
+        (
+            "peak_friction_force_n",
+            d.peak_friction_force_n,
+            d.friction_coefficient_used,
+            Output::FrictionForce,
+        ),
+        (
+            "peak_slider_force_n",
+            d.peak_slider_force_n,
+            d.slider_force_coefficient,
+            Output::SliderForce,
+        ),
     ] {
+        c.of(name);
         c.within(printed, own.peak(output), force_n);
         c.within(coefficient, over(output, weight_n), force_n / weight_n);
     }
     let points = if model.structure().is_some() { &d.points } else { &d.storeys };
+    let part = if model.structure().is_some() { "point" } else { "storey" };
     for (i, storey) in points.iter().enumerate().take(n) {
+        c.of_part(part, i, "peak_displacement_m");
         c.within(storey.peak_displacement_m, own.peak(Output::Displacement(i)), near_m);
+        c.of_part(part, i, "peak_drift_m");
         c.within(storey.peak_drift_m, own.peak(Output::Drift(i)), near_m);
         let near = force_n / mass_kg(i);
+        c.of_part(part, i, "peak_acceleration_m_per_s2");
         c.within(storey.peak_acceleration_m_per_s2, own.peak(Output::Acceleration(i)), near);
     }
     for (i, storey) in points.iter().enumerate().take(n) {
         let height_m = model.rise_m(i);
         let ratio = height_m.map(|height_m| over(Output::Drift(i), height_m));
+        c.of_part(part, i, "peak_drift_ratio");
         c.optional(storey.peak_drift_ratio, ratio, near_m / height_m.unwrap_or(1.0));
     }
+    c.of("storeys");
     c.same(d.storeys.len() + d.points.len() == n && points.len() == n);
     let ratio = own.gap_m.map(|gap_m| [own.scale_m / gap_m; 3]);
+    c.of("gap_ratio");
     c.optional(d.gap_ratio, ratio, near_m / own.gap_m.unwrap_or(1.0));
     let width_m = own.width_m.filter(|_| own.outputs.has_moment());
     let moment = width_m.map(|width_m| 0.5 * width_m * weight_n);
     let ratio = moment.map(|moment| over(Output::Overturning, moment));
     let near = own.outputs.height_m(model) * force_n;
+    c.of("overturning_ratio");
     c.optional(d.overturning_ratio, ratio, near / moment.unwrap_or(1.0));
 }
 
@@ -257,6 +319,7 @@ fn of_contents(
     (instants_s, rounding): (f64, &Rounding),
 ) {
     let contents = model.contents();
+    c.of("contents");
     c.same(d.contents.len() == contents.len());
     for (e, (printed, given)) in d.contents.iter().zip(contents).enumerate() {
         let places = (0..h.len()).map(|k| h.contents_state(k, e)[0]);
@@ -264,13 +327,19 @@ fn of_contents(
         let (sums, near_m) = (own.totals.interfaces[1 + e], rounding.displacement_m);
         let [fast, rough] = [Output::ContentsVelocity(e), Output::ContentsAcceleration(e)]
             .map(|output| own.peaks[own.outputs.place(output)]);
+        c.of_part("contents", e, "peak_sliding_displacement_m");
         c.number(printed.peak_sliding_displacement_m, peak_m, near_m, peak_m);
+        c.of_part("contents", e, "residual_sliding_displacement_m");
         c.number(printed.residual_sliding_displacement_m, last_m, near_m, peak_m);
+        c.of_part("contents", e, "sliding_path_m");
         c.number(printed.sliding_path_m, sums.path_m, near_m, sums.path_m);
+        c.of_part("contents", e, "sliding_time_s");
         c.number(printed.sliding_time_s, sums.sliding_s, instants_s, sums.sliding_s);
         let near = rounding.velocity_m_per_s;
+        c.of_part("contents", e, "peak_sliding_velocity_m_per_s");
         c.number(printed.peak_sliding_velocity_m_per_s, fast, near, fast);
         let near = rounding.force_n / given.mass_kg;
+        c.of_part("contents", e, "peak_acceleration_m_per_s2");
         c.number(printed.peak_acceleration_m_per_s2, rough, near, rough);
     }
 }
@@ -283,6 +352,7 @@ pub(super) fn of_peak_time(
     peak_m: f64,
     rounding: &Rounding,
 ) {
+    c.of("peak_sliding_displacement_time_s");
     let at_s = d.peak_sliding_displacement_time_s;
     let size = |k: usize| h.sliding_displacement_m[k].abs();
     let near = |k: &usize| (h.time_s[*k] - at_s).abs() <= rounding.instant_s;
@@ -304,15 +374,19 @@ fn of_surfaces(
     h: &History,
     near_m: f64,
 ) {
+    c.of("surfaces");
     c.same(printed.len() == h.surfaces);
     let Some(series) = model.slider().series() else { return };
     for (i, (printed, surface)) in printed.iter().zip(series.surfaces()).enumerate() {
         let all = (0..h.len()).map(|k| h.surface_displacements(k)[i]);
         let peak_m = all.fold(0.0, |peak: f64, u| peak.max(u.abs()));
+        c.of_part("surface", i, "peak_displacement_m");
         c.number(printed.peak_displacement_m, peak_m, near_m, peak_m);
         let last_m = h.surface_displacements(h.len() - 1)[i];
+        c.of_part("surface", i, "residual_displacement_m");
         c.number(printed.residual_displacement_m, last_m, near_m, peak_m.max(near_m));
         let reached = surface.travel_m.is_some_and(|d| peak_m >= d * (1.0 - 1e-12));
+        c.of_part("surface", i, "end_reached");
         c.same(printed.end_reached == reached);
     }
 }
@@ -324,6 +398,7 @@ fn of_stop(
     own: &Recomputed<'_>,
     (instants_s, rounding): (f64, &Rounding),
 ) {
+    c.of("stop");
     match (&d.stop, model.stop()) {
         (Some(stop), Some(given)) => {
             let rigid = matches!(given.kind, StopKind::Rigid { .. });
@@ -331,12 +406,17 @@ fn of_stop(
             let touched = of(EventKind::Contact).fold(0.0, |p: f64, e| p.max(e.speed));
             let speed = if rigid { own.events.impacts } else { touched };
             let force_n = own.peaks[own.outputs.of_stop()];
+            c.of("stop_contact_count");
             c.same(stop.contact_count == of(EventKind::Contact).count() as u64);
+            c.of("stop_impact_count");
             c.same(stop.impact_count == of(EventKind::Impact).count() as u64);
+            c.of("stop_peak_force_n");
             c.number(stop.peak_force_n, force_n, rounding.force_n, force_n);
             let near = rounding.velocity_m_per_s;
+            c.of("stop_peak_impact_speed_m_per_s");
             c.number(stop.peak_impact_speed_m_per_s, speed, near, speed);
             let own = own.totals.contact_s;
+            c.of("stop_contact_time_s");
             c.number(stop.contact_time_s, own, instants_s, own);
         }
         (printed, own) => c.same(printed.is_none() && own.is_none()),
@@ -354,6 +434,7 @@ fn of_events(
     use EventKind::{
         Contact, Impact, Leave, Press, Rest, Reversal, Separation, Slip, Stick, Surface,
     };
+    c.of("events");
     let all = &own.events.list;
     let interfaces = own.totals.interfaces.len();
     for interface in 0..interfaces {

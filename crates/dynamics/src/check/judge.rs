@@ -141,6 +141,10 @@ pub(super) trait Directions {
     fn changed(&mut self, _: usize) {}
     /// A phase of an interface begins at a knot.
     fn begins(&mut self, i: usize, k: usize);
+    /// Largest inertia that cancels out of what is found, in N.
+    fn carried_n(&self) -> f64 {
+        0.0
+    }
     /// Compares the printed demands with those of the path.
     fn compare_demands(&self, c: &mut Comparison, rounding: &Rounding);
 }
@@ -366,9 +370,11 @@ where
         }
     }
 
-    /// Turns of the block short of a rigid stop: how far, over the gap.
+    /// Turns of the block short of a rigid stop: how far, over the gap, or over the largest displacement where the gap
+    /// is 0.
     fn near_misses(&self) -> Vec<ClosestCall> {
         let h = self.h;
+        let largest_m = || h.sliding_displacement_m.iter().fold(0.0, |most, s| larger(most, *s));
         let mut calls = Vec::new();
         for side in Direction::BOTH {
             let Some(wall) = self.law.wall(side) else { continue };
@@ -382,7 +388,8 @@ where
             let turns = halts.map(|k| (side.sign() * h.sliding_displacement_m[k], k));
             let turns = turns.filter(|(s, _)| *s < gap_m);
             if let Some((s, k)) = turns.reduce(|a, b| if b.0 > a.0 { b } else { a }) {
-                let (margin, time_s) = (1.0 - s / gap_m, h.time_s[k]);
+                let scale_m = if gap_m > 0.0 { gap_m } else { largest_m() };
+                let (margin, time_s) = ((gap_m - s) / scale_m, h.time_s[k]);
                 calls.push(ClosestCall { margin, time_s, kind: DecisionKind::Miss, interface: 0 });
             }
         }
@@ -449,7 +456,7 @@ where
             instant_s: self.instant_s,
             displacement_m: near(f.displacement[1]) + self.drift[0],
             velocity_m_per_s: near(f.velocity[1]) + self.jolt + self.drift[1],
-            force_n: near(f.force[1]) + self.unsure_n + blur_n,
+            force_n: near(larger(f.force[1], self.carried_n())) + self.unsure_n + blur_n,
         };
         let mut demands = Comparison::default();
         self.compare_demands(&mut demands, &rounding);
@@ -461,6 +468,7 @@ where
                 .books
                 .error(jolt_j, |k| unsure(&self.h.time_s, self.instant_s, k)),
             demands_error: demands.worst,
+            demand_in_error: demands.worst_of(),
             closest_call: self.closest,
             bound,
             books: self.books,

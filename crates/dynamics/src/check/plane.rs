@@ -11,7 +11,6 @@ mod interval;
 mod judge;
 mod peaks;
 mod step;
-mod straight;
 
 use super::ground::Ground;
 use super::judge::JudgeInput;
@@ -24,7 +23,7 @@ use crate::motion::GroundMotion;
 use crate::progress::{GoOn, Pulse};
 use crate::response::{History, HistoryAlongY, Response};
 use crate::slider::{Direction, RateCurve, RateLaw};
-use frame::PlaneFrame;
+use frame::{Pair, PlaneFrame, cross, norm, unit};
 use judge::PlaneJudge;
 
 /// [`super::check_while`] of a motion that has a component along y.
@@ -44,9 +43,6 @@ pub(super) fn check(
     if !(is_within(model) && well_formed(model, model.storeys_in_plane(), motion, h)) {
         return unjudged();
     }
-    if let Some(axis) = straight::only_axis(model, motion) {
-        return straight::check(model, motion, (response, plane, h, along_y), axis, go_on);
-    }
     let vertical = motion.vertical_m_per_s2().is_some();
     let end_s = h.time_s.last().copied().unwrap_or(0.0);
     let law = Law::new(model, vertical);
@@ -61,9 +57,9 @@ pub(super) fn check(
     let outputs = Outputs::with_moment(model, widths.iter().any(Option::is_some));
     let (law, outputs, pulse) = (&law, &outputs, Pulse::new(go_on));
     let given = JudgeInput { model, motion, response, history: h, law, outputs, pulse };
-    PlaneJudge::of_plane(given, (plane, along_y, table_y), &frame)
-        .run(bound)?
-        .map_or_else(unjudged, Ok)
+    let mut judge = PlaneJudge::of_plane(given, (plane, along_y, table_y), &frame);
+    judge.axes.on_line = is_on_line(model, (motion.horizontal_m_per_s2(), table_y));
+    judge.run(bound)?.map_or_else(unjudged, Ok)
 }
 
 /// Whether the slider is the same in all directions and nothing else slides or stops.
@@ -77,6 +73,41 @@ fn is_within(model: &Model) -> bool {
         && model.stop().is_none()
         && model.contents().is_empty()
         && model.slope_m_per_s2() == 0.0
+}
+
+/// Whether all of a motion and of the start is on one line through rest, along which a model with this frame stays.
+fn is_on_line(model: &Model, table: (&[f64], &[f64])) -> bool {
+    let (x, y) = (model.initial(), model.along_y());
+    let (frame, [q, v]) = (
+        model.frame(),
+        [model.initial_storey_displacement_m(), model.initial_storey_velocity_m_per_s()],
+    );
+    let of_y = |list: &Option<Vec<f64>>| list.clone().unwrap_or_else(|| vec![0.0; q.len()]);
+    let (own_q, own_v) =
+        (of_y(&y.initial.storey_displacement_m), of_y(&y.initial.storey_velocity_m_per_s));
+    let initial = [x, &y.initial]
+        .map(|initial| [[initial.sliding_displacement_m], [initial.sliding_velocity_m_per_s]]);
+    let kinds: [(&[f64], &[f64]); 5] = [
+        table,
+        (&initial[0][0], &initial[1][0]),
+        (&initial[0][1], &initial[1][1]),
+        (&q, &own_q),
+        (&v, &own_v),
+    ];
+    let mut line: Option<Pair> = None;
+    for (x, y) in kinds {
+        let pairs = || x.iter().zip(y).map(|(x, y)| [*x, *y]);
+        let most = pairs().fold([0.0; 2], |most, v| if norm(v) > norm(most) { v } else { most });
+        let Some(along) = line.or(unit(most)) else { continue };
+        line = Some(along);
+        if pairs().any(|v| cross(along, v).abs() > 4.0 * f64::EPSILON * norm(most)) {
+            return false;
+        }
+    }
+    let is_axis = line.is_some_and(|[x, y]| x == 0.0 || y == 0.0);
+    let is_alike = model.storeys() == 0
+        || (frame.stiffnesses_n_per_m == y.stiffnesses_n_per_m && frame.damping == y.damping);
+    model.structure().is_none() && (is_axis || is_alike)
 }
 
 /// Whether friction by speed is exponential, and the same both ways.

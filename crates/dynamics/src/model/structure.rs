@@ -81,7 +81,7 @@ pub struct StructurePoint {
 pub struct Structure {
     /// All of its mass in kg.
     pub mass_kg: f64,
-    /// Modes that take part along x.
+    /// Modes that take part along x; none where all move along y.
     pub modes: Vec<StructureMode>,
     /// All modes with what they do along x and along y; none where nothing is known along y.
     pub in_plane: Vec<ModeInPlane>,
@@ -112,6 +112,9 @@ pub const ROUNDED_MASS: f64 = 1e-6;
 
 /// The same of what is between x and y, where products of both participations are rounded.
 pub const ROUNDED_ACROSS: f64 = 1e-3;
+
+/// Part of the mass, or of the block's motion, by which a structure may move across a line and move along it: rounding.
+const OFF: f64 = 1e-14;
 
 /// What is asked of the participations along x and y together.
 pub const ACROSS: &str = "participations along x and y whose squares sum to at most the mass of the structure in every \
@@ -157,6 +160,48 @@ impl Structure {
             }
         };
         taking_part.map(of).collect()
+    }
+
+    /// The structure as one of one direction, along which alone block, modes and points move when the ground does: modes of
+    /// one frequency and damping are one there. `None` where something moves across it.
+    pub(crate) fn along(&self, direction: [f64; 2]) -> Option<Self> {
+        let [x, y] = direction;
+        let on = |v: [f64; 2]| x * v[0] + y * v[1];
+        let is_off = |v: [f64; 2], size: f64| (x * v[1] - y * v[0]).abs() > OFF * size;
+        let mut modes: Vec<StructureMode> = Vec::new();
+        for (i, first) in self.in_plane.iter().enumerate() {
+            let is_alike = |mode: &&ModeInPlane| {
+                mode.frequency_rad_per_s == first.frequency_rad_per_s
+                    && mode.damping_ratio == first.damping_ratio
+            };
+            if self.in_plane[..i].iter().any(|mode| is_alike(&mode)) {
+                continue;
+            }
+            // Σ v (L·e)
+            let moved = |of: &dyn Fn(&ModeInPlane) -> [f64; 2]| {
+                let alike = self.in_plane.iter().filter(is_alike);
+                alike.fold([0.0; 2], |sum, mode| {
+                    let (v, l) = (of(mode), on(mode.participation));
+                    [sum[0] + v[0] * l, sum[1] + v[1] * l]
+                })
+            };
+            let mass = moved(&|mode| mode.participation);
+            let points: Vec<[f64; 2]> =
+                (0..self.points.len()).map(|i| moved(&|mode| mode.points[i])).collect();
+            if is_off(mass, self.mass_kg) || points.iter().any(|point| is_off(*point, 1.0)) {
+                return None;
+            }
+            if on(mass) > OFF * self.mass_kg {
+                modes.push(StructureMode {
+                    frequency_rad_per_s: first.frequency_rad_per_s,
+                    damping_ratio: first.damping_ratio,
+                    effective_mass_kg: on(mass),
+                    points: points.into_iter().map(on).collect(),
+                });
+            }
+        }
+        let points = self.points.clone();
+        (!modes.is_empty()).then(|| Self { mass_kg: self.mass_kg, modes, in_plane: vec![], points })
     }
 
     /// What of a point's motion is the block's, along x and y by the block's along x and y: `I − Σ φ Lᵀ`.
@@ -214,7 +259,8 @@ impl Structure {
 
     pub(super) fn check(&self) -> Result<(), ModelError> {
         positive("structure mass_kg", self.mass_kg)?;
-        if self.modes.is_empty() {
+        if self.modes.is_empty() && self.in_plane.iter().all(|mode| mode.participation == [0.0; 2])
+        {
             let (quantity, expected) = ("structure modes", "a mode that takes part");
             return Err(ModelError::Missing { quantity, expected });
         }

@@ -19,9 +19,12 @@ const WATER_KG_PER_M3: f64 = 1000.0;
 /// m_i/m = tanh(0.866 D/H)/(0.866 D/H)        h_i/H = 0.5 − 0.09375 D/H where D/H < 1.333, else 0.375
 /// m_c/m = 0.230 (D/H) tanh x                 h_c/H = 1 − (cosh x − 1)/(x sinh x)
 /// T_c   = 2 π/√(3.68 (g/D) tanh x)
+/// h'_i/H = 0.866 (D/H)/(2 tanh(0.866 D/H)) − 1/8, 0.45 where D/H < 0.75
+/// h'_c/H = 1 − (cosh x − 2.01)/(x sinh x)
 /// ```
 ///
-/// Heights are those of the pressure on the wall, without that on the bottom. In wide tanks `m_i + m_c` lacks some per
+/// Heights `h` are those of the pressure on the wall alone, by which the wall bends; `h'` are those of the pressure on
+/// wall and bottom, by which the tank overturns about a plane below it. In wide tanks `m_i + m_c` lacks some per
 /// cent of `m`, the higher modes. In those with `D/H < 1.5` the two formulas exceed `m` by up to 6 %; there
 /// `m_i = m − m_c`, since the liquid has no more mass.
 ///
@@ -46,9 +49,13 @@ pub struct LiquidTank {
     pub impulsive_mass_kg: f64,
     /// What sloshes, in kg.
     pub convective_mass_kg: f64,
-    /// Height of the impulsive mass above the bottom in m.
+    /// Height of the impulsive mass above the bottom in m, by the pressure on the wall alone.
+    pub wall_impulsive_height_m: f64,
+    /// Height of the convective mass above the bottom in m, by the pressure on the wall alone.
+    pub wall_convective_height_m: f64,
+    /// Height of the impulsive mass above the bottom in m, by the pressure on wall and bottom.
     pub impulsive_height_m: f64,
-    /// Height of the convective mass above the bottom in m.
+    /// Height of the convective mass above the bottom in m, by the pressure on wall and bottom.
     pub convective_height_m: f64,
     /// Period of sloshing in s.
     pub convective_period_s: f64,
@@ -69,6 +76,10 @@ impl LiquidTank {
         let impulsive_height = if d / h < 1.333 { 0.5 - 0.09375 * d / h } else { 0.375 };
         // (cosh x − 1)/sinh x = tanh(x/2)
         let convective_height = 1.0 - libm::tanh(0.5 * x) / x;
+        // 1 − (cosh x − 2.01)/(x sinh x), the same and the part of the bottom.
+        let of_bottom = 1.01 / (x * libm::sinh(x));
+        let impulsive_on_base =
+            if d / h < 0.75 { 0.45 } else { 0.5 * wide / libm::tanh(wide) - 0.125 };
         let convective_mass_kg = mass_kg * 0.230 * d / h * libm::tanh(x);
         let impulsive_mass_kg = mass_kg * libm::tanh(wide) / wide;
         let omega = (3.68 * STANDARD_GRAVITY_M_PER_S2 / d * libm::tanh(x)).sqrt();
@@ -79,8 +90,10 @@ impl LiquidTank {
             mass_kg,
             impulsive_mass_kg: impulsive_mass_kg.min(mass_kg - convective_mass_kg),
             convective_mass_kg,
-            impulsive_height_m: impulsive_height * h,
-            convective_height_m: convective_height * h,
+            wall_impulsive_height_m: impulsive_height * h,
+            wall_convective_height_m: convective_height * h,
+            impulsive_height_m: impulsive_on_base * h,
+            convective_height_m: (convective_height + of_bottom) * h,
             convective_period_s: TAU / omega,
         })
     }
@@ -113,9 +126,43 @@ mod tests {
     fn values_worked_by_hand() {
         let tank = LiquidTank::new(4.5, 4.0, 1.0).expect("a tank");
         assert!((tank.impulsive_mass_kg / tank.mass_kg - 0.4928).abs() < 1e-4);
-        assert!((tank.impulsive_height_m - 1.5).abs() < 1e-12);
+        assert!((tank.wall_impulsive_height_m - 1.5).abs() < 1e-12);
         // Rounded, with g = 9.81 m/s².
         assert!((tank.convective_period_s - 3.259).abs() < 2e-3);
+    }
+
+    /// ACI 350.3-06, section 9.3, worked by hand for R = 10 m: heights with the pressure on the bottom, and those
+    /// without it, impulsive and convective.
+    #[test]
+    fn heights_about_a_plane_below_the_bottom() {
+        for (depth_m, with, without) in [
+            (3.0, [8.285, 10.993], [1.125, 1.537]),
+            (6.0, [7.964, 7.361], [2.250, 3.272]),
+            (10.0, [7.970, 7.844], [3.750, 6.055]),
+            (20.0, [9.883, 15.11], [8.125, 14.83]),
+        ] {
+            let tank = LiquidTank::new(10.0, depth_m, 1.0).expect("a tank");
+            let found = [tank.impulsive_height_m, tank.convective_height_m];
+            let of_wall = [tank.wall_impulsive_height_m, tank.wall_convective_height_m];
+            for (found, expected) in
+                found.into_iter().chain(of_wall).zip(with.into_iter().chain(without))
+            {
+                assert!((found / expected - 1.0).abs() < 5e-4, "{depth_m}: {found} for {expected}");
+            }
+        }
+    }
+
+    /// Potential flow of the first mode: the moment of the pressure on wall and bottom about the bottom is that of the
+    /// mass at `h'/H = 1 − (cosh y − 2)/(y sinh y)`, `y = 1.8412 H/R`.
+    #[test]
+    fn exact_convective_height_is_that_of_potential_flow() {
+        for depth_m in [2.0, 8.0, 15.0, 30.0] {
+            let tank = LiquidTank::new(10.0, depth_m, 1.0).expect("a tank");
+            let y = 1.841_183_781_340_659_3 * depth_m / 10.0;
+            let height = depth_m * (1.0 - (libm::cosh(y) - 2.0) / (y * libm::sinh(y)));
+            // Housner's constants 3.68 and 2.01 for 3.6824 and 2: in a shallow tank 0.01/0.93 of the height.
+            assert!((tank.convective_height_m / height - 1.0).abs() < 0.015);
+        }
     }
 
     #[test]

@@ -7,9 +7,10 @@ use crate::error::MotionError;
 /// A spectrum of pseudo-acceleration over the period, 5 % damped.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TargetSpectrum {
-    /// Points, periods rising, linear between the logarithms of both.
+    /// Points, periods rising, linear between the logarithms of both; between a period of 0 and the next
+    /// linear.
     Points {
-        /// Periods in s, > 0, rising.
+        /// Periods in s, rising; the first may be 0.
         periods_s: Vec<f64>,
         /// Ordinates in m/s², > 0, one a period.
         sa_m_per_s2: Vec<f64>,
@@ -30,8 +31,8 @@ impl TargetSpectrum {
     /// A spectrum of points.
     ///
     /// # Errors
-    /// [`MotionError::OutOfRange`] for fewer than two points, periods or ordinates that are not
-    /// finite and > 0, and periods that do not rise.
+    /// [`MotionError::OutOfRange`] for fewer than two points, ordinates that are not finite and > 0,
+    /// periods that are not finite and at least 0, and periods that do not rise.
     pub fn points(periods_s: Vec<f64>, sa_m_per_s2: Vec<f64>) -> Result<Self, MotionError> {
         let positive = |values: &[f64]| values.iter().all(|v| v.is_finite() && *v > 0.0);
         let fault =
@@ -43,8 +44,8 @@ impl TargetSpectrum {
         if let Some(pair) = periods_s.windows(2).find(|pair| !(pair[0] < pair[1])) {
             return Err(fault("period", "periods that rise", pair[1]));
         }
-        if !positive(&periods_s) {
-            return Err(fault("period", "finite values > 0", periods_s[0]));
+        if !(periods_s[0] >= 0.0 && positive(&periods_s[1..])) {
+            return Err(fault("period", "finite values of at least 0", periods_s[0]));
         }
         if let Some(sa) = sa_m_per_s2.iter().find(|v| !positive(&[**v])) {
             return Err(fault("ordinate", "finite values > 0", *sa));
@@ -71,10 +72,13 @@ impl TargetSpectrum {
                     return None;
                 }
                 let i = periods_s.partition_point(|t| *t <= period_s).clamp(1, last);
+                let (low, high) = (sa_m_per_s2[i - 1], sa_m_per_s2[i]);
+                if periods_s[i - 1] == 0.0 {
+                    return Some(low + (high - low) * period_s / periods_s[i]);
+                }
                 let ln = |v: f64| libm::log(v);
                 let part = (ln(period_s) - ln(periods_s[i - 1]))
                     / (ln(periods_s[i]) - ln(periods_s[i - 1]));
-                let (low, high) = (sa_m_per_s2[i - 1], sa_m_per_s2[i]);
                 Some(low * libm::exp(part * libm::log(high / low)))
             }
         }
@@ -240,7 +244,10 @@ mod tests {
         assert!((target.at(2.0).unwrap() - 4.0).abs() < 1e-12);
         assert_eq!((target.at(0.1), target.at(4.0)), (Some(8.0), Some(2.0)));
         assert_eq!((target.at(0.09), target.at(4.1)), (None, None));
+        let from_zero = TargetSpectrum::points(vec![0.0, 0.1, 1.0], vec![4.0, 8.0, 8.0]).unwrap();
+        assert_eq!([0.0, 0.05, 0.1].map(|t| from_zero.at(t)), [Some(4.0), Some(6.0), Some(8.0)]);
         for (t, sa) in [
+            (vec![-0.1, 1.0], vec![1.0; 2]),
             (vec![1.0], vec![1.0]),
             (vec![1.0, 1.0], vec![1.0; 2]),
             (vec![1.0, 2.0], vec![1.0, 0.0]),

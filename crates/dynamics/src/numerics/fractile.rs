@@ -6,17 +6,19 @@
 //! Excel. A probability that is promised ([`held_by`]) is counted: the least value that at least a
 //! share `p` of the runs do not exceed.
 //!
-//! A run without a finite value counts as above every value: a collapse, or a record whose curve does
-//! not reach. A fractile that falls on such runs is infinite and drawn by nobody.
+//! An infinite value counts as above every other: a run that is known to lie beyond, or a record whose curve
+//! does not reach. A fractile that falls on such runs is infinite and drawn by nobody. NaN is no value: a run of
+//! which nothing is known is left out.
 
 /// 16, 50 and 84 %: median and one standard deviation of a normal distribution to either side.
 pub const SHARES: [f64; 3] = [0.16, 0.5, 0.84];
 
-/// The values in ascending order, all that are not finite as +∞ at the end.
+/// The values in ascending order, those that are infinite as +∞ at the end and NaN left out.
 #[must_use]
 pub fn sorted(values: &[f64]) -> Vec<f64> {
     let above = |value: &f64| if value.is_finite() { *value } else { f64::INFINITY };
-    let mut sorted: Vec<f64> = values.iter().map(above).collect();
+    let known = values.iter().filter(|value| !value.is_nan());
+    let mut sorted: Vec<f64> = known.map(above).collect();
     sorted.sort_by(f64::total_cmp);
     sorted
 }

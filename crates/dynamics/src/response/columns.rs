@@ -45,6 +45,14 @@ impl Response {
         };
         (0..history.len()).map(of).collect()
     }
+
+    /// The same along y; nothing in one direction.
+    #[must_use]
+    pub fn slider_force_y_n(&self, model: &Model) -> Vec<f64> {
+        let y = self.in_plane.as_ref().and_then(|plane| plane.history.as_ref());
+        let (Some(history), Some(y)) = (&self.history, y) else { return Vec::new() };
+        (0..history.len()).map(|knot| y.slider_force_n(history, model, knot)[1]).collect()
+    }
 }
 
 /// `sliding_displacement_m` along y: `sliding_displacement_y_m`.

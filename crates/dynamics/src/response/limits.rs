@@ -8,7 +8,8 @@ use crate::notice::{Notice, NoticeKind};
 const FLAT: f64 = 0.2;
 
 /// Warning for a pendulum, or a surface of several, that slides beyond 0.2 of its radius: the force `N s/R`
-/// of flat geometry is that of the dish, `N s/√(R² − s²)`, times `√(1 − (s/R)²)`.
+/// of flat geometry is that of the dish, `N s/√(R² − s²)`, times `√(1 − (s/R)²)`. It is severe beyond the dish, from
+/// `s = R` on.
 #[must_use]
 pub fn flat_geometry(model: &Model, demands: &Demands) -> Option<Notice> {
     let of = |(surface, radius_m): (Option<usize>, f64)| match surface {
@@ -32,7 +33,7 @@ pub fn flat_geometry(model: &Model, demands: &Demands) -> Option<Notice> {
     let message = format!(
         "{what} slides {ratio:.2} of its radius: beyond {FLAT} flat geometry is in error; {short}"
     );
-    Some(Notice::new(NoticeKind::FlatGeometry, message))
+    Some(Notice::new(NoticeKind::FlatGeometry, message).severe_where(ratio >= 1.0))
 }
 
 /// What the slider comes to the end of, which a table of sliding displacements does not tell: its gap, its
@@ -82,6 +83,7 @@ pub fn struck(model: &Model, demands: &Demands) -> Vec<Notice> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::notice::Severity;
     use crate::response::SurfaceDemands;
     use crate::slider::{Surface, SurfacesInSeries};
 
@@ -96,13 +98,14 @@ mod tests {
         let pendulum = block().radius("2 m").build().unwrap();
         assert_eq!(flat_geometry(&pendulum, &slid(0.4)), None);
         let found = flat_geometry(&pendulum, &slid(1.2)).unwrap();
-        assert_eq!(found.kind, NoticeKind::FlatGeometry);
+        assert_eq!((found.kind, found.severity()), (NoticeKind::FlatGeometry, Severity::Warning));
         assert_eq!(
             found.message,
             "the block slides 0.60 of its radius: beyond 0.2 flat geometry is in error; here its restoring \
              force is 20 % below that of the dish"
         );
         let beyond = flat_geometry(&pendulum, &slid(2.0)).unwrap();
+        assert_eq!((beyond.severity(), beyond.label()), (Severity::Severe, "Severe"));
         assert!(
             beyond.message.ends_with("a dish of that radius does not reach so far"),
             "{}",

@@ -127,19 +127,21 @@ impl Hold {
         distance
     }
 
-    /// Where the block rests against a rigid stop: how much of its push friction cannot take, positive
-    /// where the stop takes some; and the sign of that push.
+    /// Where the block rests against a rigid stop, or between two: how much of its push towards each friction cannot take,
+    /// positive where that stop takes some; and the sign of that push.
     pub(crate) fn beyond_friction(
         &self,
         asked: &Polynomial,
         [normal_n, rise_n]: [f64; 2],
-    ) -> Option<(f64, Polynomial)> {
-        let side = self.leans.iter().position(|leans| *leans)?;
-        let (sign, bound) = (if side == 0 { -1.0 } else { 1.0 }, self.friction[side]);
-        let mut beyond = asked.map(|c| sign * c);
-        beyond[0] -= sign * (bound * normal_n);
-        beyond[1] -= sign * (bound * rise_n);
-        Some((sign, beyond))
+    ) -> impl Iterator<Item = (f64, Polynomial)> + use<> {
+        let sides = [0, 1].map(|side| {
+            let (sign, bound) = (if side == 0 { -1.0 } else { 1.0 }, self.friction[side]);
+            let mut beyond = asked.map(|c| sign * c);
+            beyond[0] -= sign * (bound * normal_n);
+            beyond[1] -= sign * (bound * rise_n);
+            self.leans[side].then_some((sign, beyond))
+        });
+        sides.into_iter().flatten()
     }
 
     /// Whether friction holds a force that it is asked for, eq. (4); at the bound it does. Else the

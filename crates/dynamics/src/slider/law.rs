@@ -243,6 +243,12 @@ impl<'a> Law<'a> {
         }
     }
 
+    /// Largest displacement that surfaces in series can take together, in m; infinite where one has no end.
+    pub(crate) fn travel_m(&self) -> f64 {
+        let series = self.bearing.series();
+        series.and_then(SurfacesInSeries::travel_m).unwrap_or(f64::INFINITY)
+    }
+
     /// Whether no surface can slide on in a direction.
     pub(crate) fn at_end(&self, memory: &Memory) -> bool {
         self.bearing.series().is_some() && !memory.series.active.contains(&true)

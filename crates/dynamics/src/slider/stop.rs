@@ -5,13 +5,13 @@
 
 use super::Direction;
 use super::branch::{Exit, Reached, Restraint};
-use super::ranges::{in_range, not_negative, optional_positive, positive};
+use super::ranges::{in_range, not_negative, positive};
 use crate::error::ModelError;
 
 /// A stop at the end of the slider's travel, on one side or on both.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stop {
-    /// Distance from `s = 0` towards +x and −x in m; `None`: no stop on that side.
+    /// Distance from `s = 0` towards +x and −x in m, 0 of what stands against it; `None`: no stop on that side.
     pub gap_m: [Option<f64>; 2],
     /// How it pushes back.
     pub kind: StopKind,
@@ -54,7 +54,8 @@ impl Stop {
             let expected = "a gap on one side at least";
             return Err(ModelError::Missing { quantity: "stop gap_m", expected });
         }
-        self.gap_m.into_iter().try_for_each(|gap_m| optional_positive("stop gap_m", gap_m))?;
+        let mut gaps_m = self.gap_m.into_iter().flatten();
+        gaps_m.try_for_each(|gap_m| not_negative("stop gap_m", gap_m))?;
         match self.kind {
             StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } => {
                 positive("stop stiffness_n_per_m", stiffness_n_per_m)?;
@@ -119,7 +120,8 @@ pub(super) struct Walls {
 fn place([positive, negative]: [Option<f64>; 2], side: Direction) -> Option<f64> {
     match side {
         Direction::Positive => positive,
-        Direction::Negative => negative.map(|gap_m| -gap_m),
+        // A gap of 0 is at 0, not at −0.
+        Direction::Negative => negative.map(|gap_m| 0.0 - gap_m),
     }
 }
 

@@ -191,13 +191,13 @@ pub(super) trait Straight<'a>: Phase<'a> {
         interface: usize,
     ) -> f64;
 
-    /// Where the slider rests against a rigid stop: how much of its push friction cannot take, positive
-    /// where the stop takes some; and the sign of that push.
-    fn beyond_friction(&self, course: &Course<'a>) -> Option<(f64, Polynomial)> {
+    /// Where the slider rests against a rigid stop, or between two: how much of its push towards each friction cannot
+    /// take, positive where that stop takes some; and the sign of that push.
+    fn beyond_friction(&self, course: &Course<'a>) -> impl Iterator<Item = (f64, Polynomial)> {
+        let (series, mut hold) = (self.series(), self.hold(course, 0));
         if course.block.mode != Mode::Stick {
-            return None;
+            hold = hold.off_stops();
         }
-        let (series, hold) = (self.series(), self.hold(course, 0));
         hold.beyond_friction(self.asked(series, 0), self.normal(series, 0))
     }
 

@@ -36,7 +36,7 @@ use crate::numerics::InstructionSet;
 use crate::response::{EventInPlane, EventKind, Mode};
 use crate::slider::Direction;
 
-pub(super) use self::straight::{along, only_axis, placed, solve};
+pub(super) use self::straight::{OnLine, on_line, solve};
 pub(super) use self::system::System;
 
 /// In two directions a slip is positive along its own velocity.

@@ -243,7 +243,7 @@ fn solve(
     }
 }
 
-/// The same in two horizontal directions: by the solver in one where nothing moves along the other.
+/// The same in two horizontal directions: by the solver in one where all of it is along one line.
 fn solve_in_plane(
     instructions: InstructionSet,
     model: &Model,
@@ -251,13 +251,20 @@ fn solve_in_plane(
     (with_history, go_on): (bool, GoOn<'_>),
 ) -> Result<Response, SolveError> {
     let system = plane::System::new(model)?;
-    if let Some(axis) = plane::only_axis(model, motion) {
-        let (model, motion) = plane::along(model, motion, axis);
-        let tables = tables_of(&model, sampling.dt_s);
-        let (ground, how) = ((&motion, sampling), (with_history, go_on));
+    let varying: Option<Vec<f64>> = varying_normal(model, motion).map(Iterator::collect);
+    let normal = Normal::new(model, varying.as_deref());
+    let ground = level(motion, normal, sampling);
+    if let Some((direction, line)) = plane::on_line(model, motion) {
+        let along = motion.along(direction);
+        let tables = tables_of(&line, sampling.dt_s);
         let workspace = &mut Workspace::default();
-        let response = solve_along_x(instructions, &model, &tables, ground, how, workspace)?;
-        return Ok(plane::placed(response, axis));
+        let how = (true, go_on);
+        let response =
+            solve_along_x(instructions, &line, &tables, (&along, sampling), how, workspace)?;
+        let line = &line;
+        let on_line =
+            plane::OnLine { direction, model, line, system, ground, table_y: y, instructions };
+        return Ok(on_line.turned(response, with_history));
     }
     let masses = 1.0 + model.degrees_in_plane() as f64;
     let (rate, limit) = (system.rate_rad_per_s, WORK_LIMIT);
@@ -266,16 +273,14 @@ fn solve_in_plane(
         return Err(SolveError::TooMuchWork { work, limit, advice: advice(model, motion, rate) });
     }
     recorder::fits(model, 2 * motion.len())?;
-    let varying: Option<Vec<f64>> = varying_normal(model, motion).map(Iterator::collect);
-    let ground = Ground {
-        times_s: motion.times_s(),
-        table: motion.horizontal_m_per_s2(),
-        acceleration: motion.horizontal_m_per_s2(),
-        normal: Normal::new(model, varying.as_deref()),
-        sampling,
-    };
     let how = (with_history, Pulse::new(go_on));
     plane::solve((model, system), (ground, y), instructions, how)
+}
+
+/// The ground on a level surface, along x.
+fn level<'a>(motion: &'a GroundMotion, normal: Normal<'a>, sampling: &'a Sampling) -> Ground<'a> {
+    let table = motion.horizontal_m_per_s2();
+    Ground { times_s: motion.times_s(), table, acceleration: table, normal, sampling }
 }
 
 fn solve_along_x(
@@ -286,6 +291,10 @@ fn solve_along_x(
     (with_history, go_on): (bool, GoOn<'_>),
     workspace: &mut Workspace,
 ) -> Result<Response, SolveError> {
+    if model.structure().is_some_and(|structure| structure.modes.is_empty()) {
+        let what = "a structure whose modes all move along y";
+        return Err(SolveError::NotTaken { method: "one horizontal direction", what });
+    }
     let rate = tables.rate_rad_per_s();
     let masses = (1 + model.storeys()) as f64;
     let (work, limit) = (rate * motion.duration_s() * masses * masses, WORK_LIMIT);

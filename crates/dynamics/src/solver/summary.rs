@@ -40,7 +40,9 @@ pub(super) fn of_peaks(
         Some(_) => (Vec::new(), points),
         None => (points, Vec::new()),
     };
-    let shear_n = if model.storeys() == 0 { 0.0 } else { peak(Output::BaseShear) };
+    // Modes along y alone are no storeys along x.
+    let is_rigid = model.storeys().max(model.storeys_in_plane()) == 0;
+    let shear_n = if is_rigid { 0.0 } else { peak(Output::BaseShear) };
     let [friction_n, slider_n] = [Output::FrictionForce, Output::SliderForce].map(&peak);
     Demands {
         storeys,

@@ -31,6 +31,8 @@ pub(super) struct Walk<'a, P> {
     before: [f64; 2],
     /// Whether a jump is walked, in which displacements stand.
     walks_jump: bool,
+    /// Factor on what of a decision is taken for rounding.
+    doubt: f64,
     /// What friction takes of a push against a rigid stop has just become all of it, or too little.
     leant: bool,
     leans_since_s: Option<f64>,
@@ -56,6 +58,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
             units,
             before,
             walks_jump: false,
+            doubt: 1.0,
             leant: false,
             leans_since_s: None,
             turn: None,
@@ -231,7 +234,8 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
     fn note_ends(&mut self, time_s: f64) -> Result<(), SolveError> {
         self.course.slider.note_surfaces(self.phase.place(0)[0]);
         if self.course.block.mode != Mode::Stick && self.course.slider.at_end() {
-            return Err(SolveError::EndOfTravel { time_s });
+            let travel_m = self.course.slider.law.travel_m();
+            return Err(SolveError::EndOfTravel { time_s, travel_m });
         }
         Ok(())
     }

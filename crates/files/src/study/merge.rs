@@ -10,6 +10,7 @@ use slipstick_report::json::Json;
 
 use super::part::{self, Checks, Notes, PartFile};
 use super::parts::{MANIFEST, PARTS, PartsFound, SUMMARY, find, held};
+use super::runs::measure_of_levels;
 use super::summary;
 use super::{OpenStudy, StudyError};
 use crate::error::FileError;
@@ -162,6 +163,7 @@ pub fn merge(folders: &[PathBuf], out: &Path) -> Result<Merged, StudyError> {
         rows: total.rows,
         failures: total.failures,
         checks: total.checks,
+        measure: first.notes.measure.clone().or_else(|| measure_of_levels(&first.table.path)),
         ..first.notes
     };
     let fields = first.table.fields();

@@ -2,23 +2,24 @@
 
 use std::path::{Path, PathBuf};
 
+use slipstick::error::listed;
 use slipstick::hash::sha256_hex;
 use slipstick::input::plan::{Plan, Records, Target};
 use slipstick::input::{self, MAX_TEXT_BYTES, MotionSource};
 use slipstick::motion::target::TargetSpectrum;
 use slipstick::notice::Notice;
+use slipstick::record;
 use slipstick::study::engine::Engine;
 use slipstick::study::{Record, Study};
-use slipstick::table::{Cells, Column};
-use slipstick::units::{Dimension, parse_unit};
 
 use super::StudyError;
 use crate::error::FileError;
 use crate::globs::{expand, named_twice};
 use crate::load::{LoadedMotion, RecordRequest, VerticalRequest, load_record};
 use crate::read::{modes_beside, read_at_most, read_bytes, resolve};
+use crate::records::PARQUET;
 use crate::run::request;
-use crate::table::read_table;
+use crate::table::{read_table, to_csv};
 use crate::unfit::refuse_unfit;
 
 /// A study with all its inputs read.
@@ -224,37 +225,24 @@ fn load_all(
     Ok(all)
 }
 
-/// A target spectrum from a table with the columns `period` and `sa`, each with its unit, and the hash of its
-/// file.
+/// What a file of a target spectrum holds.
+pub const TARGET: &str = "a table of periods (T, Period) and spectral accelerations with their unit \
+                          (Sa, PSA), such as the columns period_s and sa_g";
+
+/// A target spectrum from such a table, CSV, text or Parquet, and the hash of its file.
 ///
 /// # Errors
 /// What is wrong with it, in words.
 pub fn read_target(path: &Path) -> Result<(TargetSpectrum, String), String> {
     let text = |error: &dyn std::fmt::Display| error.to_string();
-    let sha256 = sha256_hex(&read_bytes(path).map_err(|error| text(&error))?);
-    let read = read_table(&[path.to_owned()]).map_err(|error| text(&error))?;
-    let column = |name: &str, dimension: Dimension| {
-        let of = |column: &Column| {
-            let (base, unit) = column.name.split_once(['_', '[', '('])?;
-            let unit = unit.trim_end_matches([']', ')']).trim().replace("_per_", "/");
-            let unit = parse_unit(&unit, dimension).ok()?;
-            let values: Vec<f64> = match &column.cells {
-                // Every cell of CSV is a text.
-                Cells::Texts(texts) => {
-                    texts.iter().map(|text| text.trim().parse().ok()).collect::<Option<_>>()?
-                }
-                cells => cells.to_numbers()?,
-            };
-            (base.trim() == name).then(|| values.into_iter().map(|v| unit.to_si(v)).collect())
-        };
-        let known: Option<Vec<f64>> = read.table.columns.iter().find_map(of);
-        let names = || read.table.columns.iter().map(|c| c.name.as_str()).collect::<Vec<_>>();
-        known.ok_or_else(|| format!("the columns {}", names().join(", ")))
+    let bytes = read_bytes(path).map_err(|error| text(&error))?;
+    let sha256 = sha256_hex(&bytes);
+    let table = match bytes.starts_with(PARQUET) {
+        true => to_csv(&read_table(&[path.to_owned()]).map_err(|error| text(&error))?.table).into(),
+        false => bytes,
     };
-    let periods_s = column("period", Dimension::Time)?;
-    let sa = column("sa", Dimension::Acceleration)?;
-    let spectrum = TargetSpectrum::points(periods_s, sa).map_err(|error| text(&error))?;
-    Ok((spectrum, sha256))
+    let spectrum = record::target_spectrum(&path.display().to_string(), &table);
+    Ok((spectrum.map_err(|error| text(&error))?, sha256))
 }
 
 /// Each file once, and a notice of those that are named more than once.
@@ -292,7 +280,7 @@ fn find(
     }
     let expected =
         format!("files beside the plan; {} of {} are missing", missing.len(), patterns.len());
-    Err(plan.error_at(place, expected, format!("no {}", missing.join(", "))))
+    Err(plan.error_at(place, expected, format!("no {}", listed(missing))))
 }
 
 /// The model's own record, scaled as the model says, where it has one and the plan has none.

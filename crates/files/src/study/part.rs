@@ -98,12 +98,18 @@ pub(super) struct Notes {
     pub failures: u64,
     /// What came of running some again.
     pub checks: Checks,
+    /// The measure that records were scaled to, where they were.
+    pub measure: Option<String>,
 }
+
+/// The key of that measure.
+pub(super) const MEASURE_KEY: &str = "slipstick.measure";
 
 impl Notes {
     fn to_pairs(&self) -> Vec<(&'static str, String)> {
         let number = |value: f64| format!("{value:?}");
-        vec![
+        let measure = self.measure.iter().map(|measure| (MEASURE_KEY, measure.clone()));
+        let pairs = [
             ("slipstick.study", self.id.clone()),
             ("slipstick.runs", self.runs.to_string()),
             ("slipstick.first_run", self.first.to_string()),
@@ -114,7 +120,8 @@ impl Notes {
             ("slipstick.friction_excess", number(self.checks.friction_excess)),
             ("slipstick.energy_balance_error", number(self.checks.energy_balance_error)),
             ("slipstick.demands_error", number(self.checks.demands_error)),
-        ]
+        ];
+        pairs.into_iter().chain(measure).collect()
     }
 
     /// Those of a file.
@@ -142,6 +149,7 @@ impl Notes {
                 energy_balance_error: number("slipstick.energy_balance_error")?,
                 demands_error: number("slipstick.demands_error")?,
             },
+            measure: table.note(MEASURE_KEY).map(str::to_owned),
         })
     }
 }

@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 
 use slipstick::input::plan::{Levels, Plan};
 
-use super::part::part_of_name;
+use super::part::{MEASURE_KEY, part_of_name};
 use super::parts::MANIFEST;
 use crate::error::FileError;
 use crate::globs::expand;
+use crate::parquet::Table;
 use crate::read::read_bytes;
 use crate::table::{ReadTable, read_table};
 
@@ -34,7 +35,7 @@ pub fn files_of_runs(source: &Path) -> Result<Vec<PathBuf>, FileError> {
 }
 
 /// Runs in CSV or Parquet as one table. A study says in its manifest what its records were scaled to,
-/// and its table is given that as a column.
+/// and its table is given that as a column; so does a file that its parts were merged to.
 ///
 /// # Errors
 /// As [`read_table`].
@@ -50,8 +51,13 @@ pub fn read_runs(files: &[PathBuf]) -> Result<ReadTable, FileError> {
     Ok(read)
 }
 
-/// What the records of a study were scaled to, from the manifest that stands beside the folder of a part.
-fn measure_of_levels(part: &Path) -> Option<String> {
+/// What the records of a study were scaled to: from the file itself, else from the manifest that stands beside the
+/// folder of a part.
+pub(super) fn measure_of_levels(part: &Path) -> Option<String> {
+    let own = Table::of(part).ok().and_then(|file| file.note(MEASURE_KEY).map(str::to_owned));
+    if own.is_some() {
+        return own;
+    }
     part_of_name(part.file_name()?.to_str()?)?;
     let folder = part.parent()?;
     let beside = [folder.join("..").join(MANIFEST), folder.join(MANIFEST)];

@@ -5,6 +5,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use slipstick::error::Stopped;
+use slipstick::input::plan::Levels;
 use slipstick::study::engine::Engine;
 use slipstick::study::{Row, Verdict};
 
@@ -167,6 +168,10 @@ impl OpenStudy {
             rows: rows.len() as u64,
             failures: rows.iter().filter(|row| row.error.is_some()).count() as u64,
             checks: self.check(rows, engine)?,
+            measure: match self.study.levels() {
+                Levels::Measure { measure, .. } => Some(measure.to_string()),
+                Levels::Factors(_) => None,
+            },
         };
         let path = folder.join(PARTS).join(part_name(part));
         let bytes = part::sealed(&self.study.fields(), &notes, &self.study.cells(rows));

@@ -34,6 +34,14 @@ pub(super) fn of(
         }
         Ok(())
     };
+    let travel_used_up = |take: &mut dyn FnMut(u64, f64)| {
+        let Some(column) = study.travel_used_up() else { return Ok(()) };
+        for file in files {
+            let values = file.table.cells(column)?.to_numbers().unwrap_or_default();
+            (file.notes.first..).zip(values).for_each(|(run, value)| take(run, value));
+        }
+        Ok(())
+    };
     let warnings = |take: &mut dyn FnMut(u64, &str)| {
         for file in files {
             let Cells::Texts(cells) = file.table.cells(status - 1)? else { continue };
@@ -42,7 +50,13 @@ pub(super) fn of(
         Ok(())
     };
     let name = open.plan.name.clone().unwrap_or_else(|| stem(&open.plan_path));
-    study.summary(&name, &Rows { solved: &solved, demand: &demand, warnings: &warnings }, engine)
+    let rows = Rows {
+        solved: &solved,
+        demand: &demand,
+        travel_used_up: &travel_used_up,
+        warnings: &warnings,
+    };
+    study.summary(&name, &rows, engine)
 }
 
 fn stem(path: &Path) -> String {

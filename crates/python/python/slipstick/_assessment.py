@@ -43,12 +43,16 @@ class Assessment(Result):
         ax: Axes | None = None,
         **kwargs: Any,
     ) -> Axes:
-        """Draw one column of a table over another in Matplotlib; the drawings of the report are ``figures``.
+        """Draw the result in Matplotlib, or one column of a table over another; the drawings of the report are ``figures``.
+
+        Without columns each kind of result has a figure of its own: a fragility curve with its band, the front of a
+        design, fractiles of a spectrum, the curves of an incremental dynamic analysis, the demand of every run of a
+        suite.
 
         Parameters
         ----------
         x, y
-            Columns of numbers; the first, and the one that answers first, if left out.
+            Columns of numbers; of a spectrum ``y`` alone may be a demand, whose fractiles are drawn.
         table
             Which of ``tables``; the first if left out.
         by
@@ -62,8 +66,32 @@ class Assessment(Result):
         -------
         Axes
         """
+        if table is None and x is None and by is None:
+            drawn = self._drawn(y, ax, **kwargs)
+            if drawn is not None:
+                return drawn
         chosen = self.table if table is None else self.tables[table]
         return chosen.plot(x, y, by=by, ax=ax, **kwargs)
+
+    def _drawn(self, y: str | None, ax: Axes | None, **kwargs: Any) -> Axes | None:
+        """The figure of the kind of result; None where a column is asked for that is not of it."""
+        from . import _plot
+
+        kind = next(iter(self.tables))
+        if kind == "spectrum" and (y is None or f"{y.removesuffix('_p50')}_p50" in self.table):
+            return _plot.draw_fractiles(self.table, y, ax, **kwargs)
+        if kind == "runs" and len(self.table):
+            demand = "peak_sliding_displacement_m" if y is None else y
+            return _plot.draw_runs(self.table, "record", demand, ax, **kwargs) if demand in self.table else None
+        if y is not None:
+            return None
+        if kind == "fragility":
+            return _plot.draw_fragility(self.table, self.summary, ax, **kwargs)
+        if kind == "front":
+            return _plot.draw_front(self.table, ax, **kwargs)
+        if kind == "ida":
+            return _plot.draw_ida(self.table, self.summary, ax, **kwargs)
+        return None
 
     def report(self, path: str | PathLike[str]) -> Path:
         """Write the result as one HTML page.

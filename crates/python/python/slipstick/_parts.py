@@ -141,7 +141,7 @@ class Stop(Part):
     Parameters
     ----------
     gap
-        Sliding displacement at which the block reaches the stop.
+        Sliding displacement at which the block reaches the stop; 0 where it stands against it.
         Such as ``"150 mm"``.
     stiffness
         Stiffness k of an elastic stop.

@@ -47,49 +47,93 @@ class Plotter:
         axes["acceleration"].sharex(axes["sliding"])
         return np.array([axes["sliding"], axes["acceleration"], axes["loop"]], dtype=object)
 
-    def history(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
-        """Sliding displacement over time, sliding shaded, the peak marked."""
+    def _along(self, along: str | None, usual: str) -> list[str]:
+        """What is drawn of a response: nothing said of one direction, in two ``x``, ``y`` or ``resultant``."""
+        if "sliding_displacement_y_m" not in self._response.knots:
+            if along not in (None, "x"):
+                raise ValueError(f"along: expected a response in two directions beside {along!r}, found one in one")
+            return [""]
+        chosen = usual if along is None else along
+        known = {"x": ["x"], "y": ["y"], "both": ["x", "y"], "resultant": ["resultant"]}
+        if chosen not in known:
+            raise ValueError(f"along: expected one of {', '.join(known)}, found {along!r}")
+        return known[chosen]
+
+    def history(self, ax: Axes | None = None, *, along: str | None = None, **kwargs: Any) -> Axes:
+        """Sliding displacement over time, sliding shaded, the peak marked.
+
+        In two directions along x and along y, of which each is a line; ``along`` may be ``"x"``, ``"y"``, ``"both"`` or
+        ``"resultant"``.
+        """
         knots, ax = self._response.knots, axes_or_new(ax)
-        time, s = knots["time_s"], 1e3 * knots["sliding_displacement_m"]
+        time = knots["time_s"]
         _shade(ax, knots)
-        ax.plot(time, s, **kwargs)
-        at = int(np.argmax(np.abs(s)))
-        ax.plot(time[at], s[at], "o", ms=4, color="C3", label=f"peak {s[at]:.4g} mm")
+        for i, axis in enumerate(self._along(along, "both")):
+            s = 1e3 * _of_axis(knots, "sliding_displacement_m", axis)
+            ax.plot(time, s, **{**({"label": _said(axis)} if axis else {}), **kwargs})
+            at = int(np.argmax(np.abs(s)))
+            style = {"color": f"C{3 + i}", "label": f"peak{_said(axis, ' ')} {s[at]:.4g} mm"}
+            ax.plot(time[at], s[at], "o", ms=4, **style)
         ax.legend(loc="best", frameon=False)
         ax.set(xlabel="time [s]", ylabel="sliding displacement [mm]")
         ax.margins(x=0)
         return ax
 
-    def acceleration(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
-        """Accelerations of table, block and top floor over time."""
+    def acceleration(self, ax: Axes | None = None, *, along: str | None = None, **kwargs: Any) -> Axes:
+        """Accelerations of table, block and top floor, or last point of a structure by its modes, over time.
+
+        In two directions along x; ``along`` may be ``"x"``, ``"y"`` or ``"resultant"``.
+        """
         knots, ax = self._response.knots, axes_or_new(ax)
+        (axis,) = self._along("x" if along == "both" else along, "x")
         time = knots["time_s"]
-        ax.plot(time, knots["table_acceleration_m_per_s2"] / G, **{"color": "0.7", "lw": 0.8, "label": "table", **kwargs})
-        ax.plot(time, knots["block_acceleration_m_per_s2"] / G, **{"lw": 0.8, "label": "block", **kwargs})
-        floors = [name for name in knots if name.startswith("storey") and "acceleration" in name]
-        if floors:
-            ax.plot(time, knots[floors[-1]] / G, **{"lw": 0.8, "label": f"floor {len(floors)}", **kwargs})
+        parts = [("table", "table_acceleration_m_per_s2"), ("block", "block_acceleration_m_per_s2")]
+        parts += self._points("acceleration_m_per_s2")[-1:]
+        for label, name in parts:
+            style = {"lw": 0.8, "label": label, **({"color": "0.7"} if label == "table" else {})}
+            ax.plot(time, _of_axis(knots, name, axis) / G, **{**style, **kwargs})
         ax.legend(loc="best", frameon=False)
-        ax.set(xlabel="time [s]", ylabel="acceleration [g]")
+        ax.set(xlabel="time [s]", ylabel=f"acceleration{_said(axis, ' ')} [g]")
         ax.margins(x=0)
         return ax
 
-    def loop(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
+    def _points(self, quantity: str) -> list[tuple[str, str]]:
+        """Names of floors, or of points of a structure by its modes, with the column of a quantity of each."""
+        knots, summary = self._response.knots, self._response.summary
+        of_structure = bool(summary.get("points"))
+        part, called = ("point", "point") if of_structure else ("storey", "floor")
+        told = summary.get("points" if of_structure else "storeys") or []
+        columns = [f"{part}{i}_{quantity}" for i in range(1, len(knots.columns) + 1)]
+        found = [name for name in columns if name in knots]
+        names = [one.get("name") if isinstance(one, dict) else None for one in told]
+        names += [None] * (len(found) - len(names))
+        return [(name or f"{called} {i}", column) for i, (name, column) in enumerate(zip(names, found), 1)]
+
+    def loop(self, ax: Axes | None = None, *, along: str | None = None, **kwargs: Any) -> Axes:
         """Force of the whole slider over sliding displacement: the loop as data sheets draw it.
 
-        With a spring, damper or stop its friction alone is drawn beside it, thin.
+        With a spring, damper or stop its friction alone is drawn beside it, thin. In two directions along x and along
+        y, each over the displacement along it; ``along`` may be ``"x"``, ``"y"`` or ``"both"``.
         """
         response, ax = self._response, axes_or_new(ax)
-        sliding = 1e3 * response.knots["sliding_displacement_m"]
-        force, friction = response.slider_force_n, -response.knots["friction_force_n"]
-        # Without them the two are one, but for rounding.
-        if np.abs(force - friction).max(initial=0.0) > 1e-9 * np.abs(force).max(initial=0.0):
-            ax.plot(sliding, 1e-3 * friction, lw=0.6, color="0.6", label="friction alone")
-            ax.plot(sliding, 1e-3 * force, **{"lw": 0.9, "color": "C0", "label": "slider", **kwargs})
+        if along == "resultant":
+            raise ValueError("along: expected one of x, y, both, found 'resultant': a loop has a direction")
+        axes = self._along(along, "both")
+        for i, axis in enumerate(axes):
+            sliding = 1e3 * _of_axis(response.knots, "sliding_displacement_m", axis)
+            force = response.slider_force_y_n if axis == "y" else response.slider_force_n
+            friction = -_of_axis(response.knots, "friction_force_n", axis)
+            # Without them the two are one, but for rounding.
+            apart = np.abs(force - friction).max(initial=0.0) > 1e-9 * np.abs(force).max(initial=0.0)
+            if apart and len(axes) == 1:
+                ax.plot(sliding, 1e-3 * friction, lw=0.6, color="0.6", label="friction alone")
+            label = _said(axis) if len(axes) > 1 else "slider"
+            style = {"lw": 0.9, "color": f"C{i}", **({"label": label} if apart or len(axes) > 1 else {})}
+            ax.plot(sliding, 1e-3 * force, **{**style, **kwargs})
+        if ax.get_legend_handles_labels()[0]:
             ax.legend(loc="best", frameon=False)
-        else:
-            ax.plot(sliding, 1e-3 * force, **{"lw": 0.9, "color": "C0", **kwargs})
-        ax.set(xlabel="sliding displacement [mm]", ylabel="slider force [kN]")
+        said = _said(axes[0], " ") if len(axes) == 1 else ""
+        ax.set(xlabel=f"sliding displacement{said} [mm]", ylabel=f"slider force{said} [kN]")
         return ax
 
     def orbit(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
@@ -129,14 +173,30 @@ class Plotter:
         ax.margins(x=0)
         return ax
 
-    def drift(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
-        """Drift of every storey over time."""
+    def drift(self, ax: Axes | None = None, *, along: str | None = None, **kwargs: Any) -> Axes:
+        """Drift of every storey over time, or displacement over the block of the points of a structure by its modes.
+
+        In two directions along x; ``along`` may be ``"x"``, ``"y"`` or ``"resultant"``.
+        """
         knots, ax = self._response.knots, axes_or_new(ax)
-        below = 0.0 * knots["time_s"]
-        for number, floor in enumerate(_numbered(knots, "storey"), 1):
-            ax.plot(knots["time_s"], 1e3 * (floor - below), **{"lw": 0.8, "label": f"storey {number}", **kwargs})
-            below = floor
-        return _over_time(ax, "drift [mm]")
+        (axis,) = self._along("x" if along == "both" else along, "x")
+        of_structure = bool(self._response.summary.get("points"))
+        below = {part: 0.0 * knots["time_s"] for part in ("x", "y")}
+        for number, (label, column) in enumerate(self._points("displacement_m"), 1):
+            parts = ("x", "y") if axis == "resultant" else (axis,)
+            moved = []
+            for part in parts:
+                floor = _of_axis(knots, column, part)
+                moved.append(floor - below[part or "x"])
+                if not of_structure:
+                    below[part or "x"] = floor
+            drift = moved[0] if len(moved) == 1 else np.hypot(*moved)
+            called = label if of_structure or not label.startswith("floor ") else f"storey {number}"
+            ax.plot(knots["time_s"], 1e3 * drift, **{"lw": 0.8, "label": called, **kwargs})
+        if not ax.lines:
+            raise ValueError("expected a model with storeys or points, found one without")
+        what = "displacement over the block" if of_structure else "drift"
+        return _over_time(ax, f"{what}{_said(axis, ' ')} [mm]")
 
     def surfaces(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
         """Displacement of every surface in series over time, and of all together."""
@@ -162,13 +222,14 @@ class Plotter:
         response, ax = self._response, axes_or_new(ax)
         knots = response.knots
         _shade(ax, knots)
+        (axis,) = self._along(None, "x")
         ax.plot(knots["time_s"], 1e-3 * knots["friction_force_n"], **{"lw": 0.8, **kwargs})
-        if response.motion.vertical_m_per_s2 is None:
+        if not axis and response.motion.vertical_m_per_s2 is None:
             fixed, kinetic = response._core._friction_limits()
             for (positive, negative), style in [(fixed, "--"), (kinetic, ":")]:
                 for value in [-positive, negative]:
                     ax.axhline(1e-3 * value, color="0.4", ls=style, lw=0.8)
-        return _over_time(ax, "friction force [kN]")
+        return _over_time(ax, f"friction force{_said(axis, ' ')} [kN]")
 
     def floor_spectra(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
         """Response spectra of table, block and floors, of ``run(..., floor_spectrum=True)``.
@@ -244,6 +305,21 @@ class Plotter:
         return FuncAnimation(figure, draw, frames=len(frame_s), interval=1e3 / frames_per_s, blit=True)
 
 
+def _of_axis(knots: Table, name: str, axis: str) -> NDArray[np.float64]:
+    """A column of a history along an axis, or the size of both: ``name`` is that along x."""
+    x: NDArray[np.float64] = knots[name]
+    if axis in ("", "x"):
+        return x
+    unit = next(unit for unit in ("_m_per_s2", "_m_per_s", "_m", "_n") if name.endswith(unit))
+    y: NDArray[np.float64] = knots[f"{name.removesuffix(unit)}_y{unit}"]
+    return y if axis == "y" else np.hypot(x, y)
+
+
+def _said(axis: str, before: str = "") -> str:
+    """An axis in words; nothing in one direction."""
+    return before + (axis if axis == "resultant" else f"along {axis}") if axis else ""
+
+
 def _numbered(knots: Table, part: str) -> list[NDArray[np.float64]]:
     """Displacements of storeys, surfaces or contents in their order."""
     found = [v for k, v in knots.items() if k.startswith(part) and k.endswith("_displacement_m")]
@@ -307,6 +383,144 @@ def draw_tornado(
     ax.axvline(0.0, color="k", lw=0.8)
     ax.set(xlabel=f"{demand}: change in % for 1 % of the key")
     return ax
+
+
+def _in_units(table: Table, name: str) -> tuple[NDArray[np.float64], str]:
+    """A column in the units of figures, and its label without them."""
+    unit = table.units.get(name, "")
+    shown, in_si = _SHOWN.get(unit, (unit, 1.0))
+    return np.asarray(table[name], dtype=float) / in_si, shown
+
+
+def _labelled(words: str, unit: str) -> str:
+    return f"{words} [{unit}]" if unit else words
+
+
+def _groups(table: Table, names: list[str]) -> list[tuple[str, NDArray[np.bool_]]]:
+    """The rows of each set of values of some columns, and what tells it apart."""
+    rows = list(zip(*(table[name] for name in names))) if names else [()] * len(table)
+    found = []
+    for values in dict.fromkeys(rows):
+        pairs = [(name, v, table.units.get(name, "")) for name, v in zip(names, values)]
+        said = ", ".join(f"{name} {v if isinstance(v, str) else f'{v:.4g}'} {unit}".rstrip() for name, v, unit in pairs)
+        found.append((said, np.array([row == values for row in rows])))
+    return found
+
+
+def draw_fragility(table: Table, summary: Mapping[str, Any], ax: Axes | None = None, **kwargs: Any) -> Axes:
+    """The probability of exceedance over intensity, with its confidence band."""
+    ax = axes_or_new(ax)
+    names = [name for name in table if name not in ("level", "probability", "band_low", "band_high")]
+    level, unit = _in_units(table, "level")
+    for said, rows in _groups(table, names):
+        (line,) = ax.plot(level[rows], table["probability"][rows], **{"label": said or "fitted", **kwargs})
+        low, high = table["band_low"][rows], table["band_high"][rows]
+        band = {"alpha": 0.2, "lw": 0.0, "color": line.get_color()}
+        ax.fill_between(level[rows], low, high, **band, label=None if said else _band_of(summary))
+    ax.set(xlabel=_labelled(str(summary.get("measure", "intensity")), unit), ylabel="probability of exceedance")
+    ax.set_ylim(0.0, 1.0)
+    ax.legend(loc="best", frameon=False)
+    return ax
+
+
+def _band_of(summary: Mapping[str, Any]) -> str:
+    confidence = summary.get("confidence")
+    return f"{100.0 * confidence:.3g} % confidence" if isinstance(confidence, float) else "confidence band"
+
+
+def draw_front(table: Table, ax: Axes | None = None, **kwargs: Any) -> Axes:
+    """Designs that no other beats: acceleration over displacement; with bounds of friction those beside them."""
+    ax = axes_or_new(ax)
+    for suffix, words, marker in [
+        ("", "nominal friction", "o-"), ("_lower_friction", "lower friction", "v"), ("_upper_friction", "upper friction", "^")
+    ]:
+        if f"displacement_m{suffix}" in table:
+            x, across = _in_units(table, f"displacement_m{suffix}")
+            y, up = _in_units(table, f"acceleration_m_per_s2{suffix}")
+            ax.plot(x, y, marker, **{"label": words, "ms": 4, "lw": 0.8, **kwargs})
+            ax.set(xlabel=f"sliding displacement [{across}]", ylabel=f"floor acceleration [{up}]")
+    if len(ax.lines) > 1:
+        ax.legend(loc="best", frameon=False)
+    return ax
+
+
+def draw_fractiles(table: Table, demand: str | None, ax: Axes | None = None, **kwargs: Any) -> Axes:
+    """Fractiles of 16, 50 and 84 % of a demand over what is varied last; a colour for each of other values."""
+    ax = axes_or_new(ax)
+    demands = [name.removesuffix("_p50") for name in table if name.endswith("_p50")]
+    chosen = demands[0] if demand is None else demand.removesuffix("_p50")
+    if chosen not in demands:
+        raise ValueError(f"y: expected one of {', '.join(demands)}, found {demand!r}")
+    varied = [name for name in table if not name.endswith(("_p16", "_p50", "_p84"))]
+    along = [name for name in varied if table.units.get(name) is not None or not isinstance(table[name][0], str)]
+    x = along[-1]
+    names = [name for name in varied if name != x and len(set(table[name])) > 1]
+    for i, (said, rows) in enumerate(_groups(table, names)):
+        for share, style in [("16", ":"), ("50", "-"), ("84", "--")]:
+            y, up = _in_units(table, f"{chosen}_p{share}")
+            label = f"{share} %" if not said else said if share == "50" else None
+            ax.plot(table[x][rows], y[rows], style, **{"color": f"C{i}", "label": label, **kwargs})
+    ax.set(xlabel=_titled(table, x), ylabel=_labelled(_words(chosen), up))
+    ax.legend(loc="best", frameon=False, title="dotted 16 %, dashed 84 %" if names else None)
+    return ax
+
+
+def draw_ida(table: Table, summary: Mapping[str, Any], ax: Axes | None = None, **kwargs: Any) -> Axes:
+    """The intensity over the demand that it makes, a line a record and design, and the limit."""
+    ax = axes_or_new(ax)
+    demand = str(summary["demand"])
+    x, across = _in_units(table, demand)
+    y, up = _in_units(table, "level")
+    names = [name for name in table if name in ("record", "friction") or name in _paths_of(table)]
+    for _, rows in _groups(table, names):
+        ax.plot(np.abs(x[rows]), y[rows], **{"color": "0.5", "lw": 0.8, **kwargs})
+    limit = summary.get("limit")
+    if limit is not None:
+        ax.axvline(limit / _SHOWN.get(table.units.get(demand, ""), ("", 1.0))[1], color="C3", ls="--", label="limit")
+        ax.legend(loc="best", frameon=False)
+    ax.set(xlabel=_labelled(_words(demand), across), ylabel=_labelled(str(summary.get("measure", "intensity")), up))
+    return ax
+
+
+def draw_runs(table: Table, x: str, y: str, ax: Axes | None = None, **kwargs: Any) -> Axes:
+    """A demand over what was varied, a point a run."""
+    ax = axes_or_new(ax)
+    values, up = _in_units(table, y)
+    for said, rows in _groups(table, [name for name in ("model", "friction") if name in table and len(set(table[name])) > 1]):
+        ax.plot(np.asarray(table[x])[rows], values[rows], ".", **{**({"label": said} if said else {}), **kwargs})
+    if len(ax.lines) > 1:
+        ax.legend(loc="best", frameon=False)
+    if isinstance(table[x][0], str):
+        ax.tick_params(axis="x", rotation=90)
+    ax.set(xlabel=_titled(table, x), ylabel=_labelled(_words(y), up))
+    return ax
+
+
+def _words(key: str) -> str:
+    """A key without its unit, in words."""
+    units = ("_m_per_s2", "_m_per_s", "_m", "_n", "_s", "_rad")
+    unit = next((unit for unit in units if key.endswith(unit)), "")
+    return key.removesuffix(unit).replace("_", " ")
+
+
+#: Tables of a model whose keys are varied
+_TABLES = ("block", "slider", "frame", "storey", "structure", "contents", "motion", "record", "records", "isolator")
+
+
+def _paths_of(table: Table) -> list[str]:
+    """Columns that are varied paths of a model."""
+    def is_path(name: str) -> bool:
+        first, dot, rest = name.partition(".")
+        return dot == "." and first in _TABLES and not rest.startswith(("peak_", "residual_", "max_", "min_"))
+
+    return [name for name in table if is_path(name)]
+
+
+def varied(table: Table) -> str:
+    """What was varied: a path with several values, else the level, the factor, the record."""
+    several = [name for name in [*_paths_of(table), "level", "scale"] if name in table]
+    several = [name for name in several if len(set(v for v in table[name] if v == v)) > 1]
+    return next(iter(several), "record")
 
 
 def draw_table(table: Table, x: str, y: str, by: str | None = None, ax: Axes | None = None, **kwargs: Any) -> Axes:

@@ -196,6 +196,13 @@ class Response:
         return force
 
     @cached_property
+    def slider_force_y_n(self) -> NDArray[np.float64]:
+        """The same along y in two directions; empty in one."""
+        force = self._core._slider_force_y()
+        force.flags.writeable = False
+        return force
+
+    @cached_property
     def events(self) -> Events:
         """All events in order."""
         return Events(Event(t, kind, int(sign), s, at) for t, kind, sign, s, at in self._core._events())

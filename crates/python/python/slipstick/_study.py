@@ -44,7 +44,7 @@ class Study(NamedTuple):
         ax: Axes | None = None,
         **kwargs: Any,
     ) -> Axes:
-        """Draw one column of the runs over another in Matplotlib.
+        """Draw a demand over what was varied, or one column of the runs over another, in Matplotlib.
 
         Parameters
         ----------
@@ -61,10 +61,10 @@ class Study(NamedTuple):
         -------
         Axes
         """
-        if x is None:
-            told = [name for name in self.table if "." in name and not name.startswith(("block.", "x.", "y."))]
-            varied = [name for name in told if len(set(self.table[name])) > 1]
-            x = next(iter(varied), "level" if "level" in self.table else None)
+        if x is None and by is None and y in self.table:
+            from ._plot import draw_runs, varied
+
+            return draw_runs(self.table, varied(self.table), y, ax, **kwargs)
         return self.table.plot(x, y, by=by, ax=ax, **kwargs)
 
     def _repr_html_(self) -> str:

@@ -3,7 +3,7 @@
 use super::header::{Header, Name};
 use super::table::Table;
 use crate::text::Text;
-use slipstick_dynamics::error::RecordError;
+use slipstick_dynamics::error::{RecordError, listed};
 use slipstick_dynamics::motion::MAX_SAMPLES;
 
 /// A column of numbers as they stand in a file.
@@ -88,8 +88,7 @@ impl Columns {
     /// The names, for a message.
     #[must_use]
     pub fn names(&self) -> String {
-        let names: Vec<_> = self.columns.iter().map(|c| format!("{:?}", c.name)).collect();
-        names.join(", ")
+        listed(self.columns.iter().map(|c| format!("{:?}", c.name)))
     }
 }
 
@@ -109,13 +108,18 @@ pub(crate) fn read(text: &Text) -> Result<Columns, RecordError> {
         let expected = "2 to 100 000 000 rows of numbers";
         return Err(text.error_at_end(expected, &table.rows().to_string()));
     }
-    let names = header.names(text, table.style.separator, table.columns)?;
+    let names = header.names(text, &table)?;
+    // Times of day count from the first.
+    let of_clock = |index: usize| {
+        let is_clock = table.clock[0] == Some(index);
+        is_clock.then(|| table.since_first(text, index)).flatten()
+    };
     let column = |index: usize| {
         let name = names.as_ref().map(|names| &names[index]);
         Column {
             name: name.map_or_else(|| format!("column {}", index + 1), |n| n.text.clone()),
             is_time: name.is_some_and(Name::is_time),
-            values: table.column(index).collect(),
+            values: of_clock(index).unwrap_or_else(|| table.column(index).collect()),
         }
     };
     Ok(Columns {

@@ -1,13 +1,17 @@
 //! What stands before the numbers: comments, text, names of the columns with their units.
 
 use super::style::Separator;
+use super::table::Table;
 use crate::text::{Line, Text, number};
 use crate::unit::{Units, seconds};
 use slipstick_dynamics::error::RecordError;
 use slipstick_dynamics::units::{Dimension, parse_unit};
 
-/// Most lines of text, comments not counted, before the numbers.
+/// Most lines of text, comments not counted, before the numbers; more where the last of them names
+/// columns of times and of motion with their units.
 const TEXT_LINES: usize = 8;
+/// Most lines before the numbers of a file whose header says all that is needed.
+const HEADER_LINES: usize = 1000;
 
 /// The lines before the first line of numbers.
 pub(super) struct Header<'a> {
@@ -17,6 +21,8 @@ pub(super) struct Header<'a> {
     before: Option<Line<'a>>,
     /// Whether the last line is text, not a comment.
     is_text: bool,
+    /// The line of text that is one more than usual.
+    too_many: Option<Line<'a>>,
     /// Lines before the first of numbers.
     pub lines: usize,
 }
@@ -50,12 +56,21 @@ pub(super) fn is_comment(line: &Line) -> bool {
     marked && (bytes[0] != b'*' || bytes.iter().any(u8::is_ascii_alphabetic))
 }
 
-/// Whether a line before the numbers is text: it begins like a word, and is no `nan` or `inf`.
+/// Whether a line before the numbers is text: it begins like a word, perhaps behind columns without a
+/// name, and is no `nan` or `inf`.
 fn is_text(line: &Line) -> bool {
     let bytes = line.bytes.trim_ascii();
-    let begins = bytes.first().is_some_and(|b| {
-        b.is_ascii_alphabetic() || !b.is_ascii() || matches!(b, b'"' | b'\'' | b'(' | b'[' | b'_')
-    });
+    let unnamed = bytes.iter().take_while(|b| matches!(b, b',' | b';' | b' ' | b'\t')).count();
+    let bytes = &bytes[unnamed..];
+    // Numbers between quotes are numbers.
+    let quoted = bytes.strip_prefix(b"\"").and_then(<[u8]>::first);
+    let is_number = quoted.is_some_and(|b| b.is_ascii_digit() || matches!(b, b'-' | b'+' | b'.'));
+    let begins = !is_number
+        && bytes.first().is_some_and(|b| {
+            b.is_ascii_alphabetic()
+                || !b.is_ascii()
+                || matches!(b, b'"' | b'\'' | b'(' | b'[' | b'_')
+        });
     let word = bytes.split(|b| b.is_ascii_whitespace() || matches!(b, b',' | b';')).next();
     let not_finite = |word: &[u8]| {
         let text = core::str::from_utf8(word).ok();
@@ -64,56 +79,96 @@ fn is_text(line: &Line) -> bool {
     begins && !word.is_some_and(not_finite)
 }
 
+/// Whether a line holds a word of two letters or more beside its numbers, or nothing but marks: part of
+/// a header, where text follows.
+fn is_prose(line: &Line) -> bool {
+    let is_word = |word: &&[u8]| {
+        let letters = word.iter().filter(|b| b.is_ascii_alphabetic()).count();
+        let missing = [&b"nan"[..], b"inf", b"null", b"none", b"na"];
+        letters >= 2 && !missing.iter().any(|m| word.eq_ignore_ascii_case(m))
+    };
+    let words = || line.bytes.split(|b| !(b.is_ascii_alphanumeric() || *b == b'.'));
+    words().any(|word| is_word(&word)) || words().all(<[u8]>::is_empty)
+}
+
 impl<'a> Header<'a> {
     /// The lines before the numbers.
     ///
     /// # Errors
     /// Where no numbers follow soon.
     pub fn of(text: &Text<'a>) -> Result<Self, RecordError> {
-        let mut header = Self { last: None, before: None, is_text: false, lines: 0 };
+        let mut header =
+            Self { last: None, before: None, is_text: false, too_many: None, lines: 0 };
         let mut texts = 0;
-        for line in text.lines() {
-            if !line.is_blank() && !is_comment(&line) && !is_text(&line) {
-                return Ok(header);
+        for (index, line) in text.lines().enumerate() {
+            let (comment, words) = (is_comment(&line), is_text(&line));
+            if !line.is_blank() && !comment && !words {
+                if index < HEADER_LINES && is_prose(&line) {
+                    continue;
+                }
+                return header.known(text);
             }
-            header.lines += 1;
-            if is_comment(&line) && !header.is_text {
+            let has_words = line.bytes.iter().any(u8::is_ascii_alphanumeric);
+            if comment && !header.is_text && has_words {
                 header.last = Some(line);
-            } else if is_text(&line) {
+            } else if words {
                 texts += 1;
                 header.before = header.last.filter(|_| header.is_text);
                 (header.last, header.is_text) = (Some(line), true);
+                if texts > TEXT_LINES {
+                    header.too_many.get_or_insert(line);
+                }
             }
-            if texts > TEXT_LINES {
-                let expected = format!(
-                    "a format that is recognised, or text with at most {TEXT_LINES} lines before \
-                     its numbers"
-                );
-                return Err(text.error(&line, 0, expected, &line.trimmed()));
+            // Prose belongs to the header where text stands below it.
+            if words || index == header.lines {
+                header.lines = index + 1;
             }
         }
-        Err(text.error_at_end("numbers", "the end of the file"))
+        match header.too_many {
+            Some(_) => Err(header.unknown(text)),
+            None => Err(text.error_at_end("numbers", "the end of the file")),
+        }
+    }
+
+    /// The header, unless it is long and its names do not say what the columns are.
+    fn known(self, text: &Text) -> Result<Self, RecordError> {
+        let says_enough = |line: &Line| {
+            let separators = [Separator::Byte(b','), Separator::Byte(b';'), Separator::Blank];
+            separators.into_iter().any(|separator| {
+                let names = split(&comment_mark_cut(line), separator);
+                let units: Vec<_> = names.iter().filter_map(|name| unit(name)).collect();
+                units.iter().any(|unit| matches!(unit, Unit::Motion(_)))
+                    && units.iter().any(|unit| matches!(unit, Unit::Time(_)))
+            })
+        };
+        if self.too_many.is_some() && !self.last.as_ref().is_some_and(says_enough) {
+            return Err(self.unknown(text));
+        }
+        Ok(self)
+    }
+
+    fn unknown(&self, text: &Text) -> RecordError {
+        let expected = format!(
+            "a format that is recognised, or text with at most {TEXT_LINES} lines before its numbers"
+        );
+        let line = self.too_many.unwrap_or(Line { number: 1, bytes: b"" });
+        text.error(&line, 0, expected, &line.trimmed())
     }
 
     /// Names of the columns, where the last line has as many as there are columns.
     ///
     /// # Errors
-    /// Where a line of text is divided as the numbers are, but has another count; and for the
-    /// header of a spectrum.
-    pub fn names(
-        &self,
-        text: &Text,
-        separator: Separator,
-        columns: usize,
-    ) -> Result<Option<Vec<Name>>, RecordError> {
+    /// Where a line of text is divided as the numbers are, but has another count.
+    pub fn names(&self, text: &Text, table: &Table) -> Result<Option<Vec<Name>>, RecordError> {
+        let (separator, columns) = (table.style.separator, table.columns);
         let Some(line) = &self.last else { return Ok(None) };
         if let Some(names) = self.with_units(text, separator, columns)? {
             return Ok(Some(names));
         }
-        let words = split(&comment_mark_cut(line), separator);
-        let begins = words.first().map_or(String::new(), |word| word.to_lowercase());
-        if begins.starts_with("period") || begins.starts_with("freq") {
-            return Err(text.error(line, 0, "a time history, not a spectrum", &line.trimmed()));
+        let mut words = named(&comment_mark_cut(line), separator, columns);
+        // Some programs leave the column that numbers the rows without a name.
+        if words.len() + 1 == columns && columns > 1 && table.counts_rows() {
+            words.insert(0, String::new());
         }
         if words.len() == columns {
             if self.is_named_before(separator, &words) {
@@ -147,13 +202,13 @@ impl<'a> Header<'a> {
         columns: usize,
     ) -> Result<Option<Vec<Name>>, RecordError> {
         let (Some(before), Some(last)) = (self.before, self.last) else { return Ok(None) };
-        let names = split(&before.trimmed(), separator);
-        let units = last.trimmed();
+        let names = named(&before.text(), separator, columns);
+        let units = last.text();
         let units: Vec<String> = match separator {
             Separator::Blank if !units.contains('\t') => {
                 units.split_whitespace().map(str::to_owned).collect()
             }
-            separator => split(&units, separator),
+            separator => named(&units, separator, columns),
         };
         let bare = |unit: &String| unit.trim_matches(['(', ')', '[', ']']).trim().to_owned();
         let units: Vec<String> = units.iter().map(bare).collect();
@@ -181,6 +236,11 @@ impl<'a> Header<'a> {
         self.last.as_ref().map_or(0, |line| split(&comment_mark_cut(line), separator).len())
     }
 
+    /// The line that names the columns; empty where there is none.
+    pub fn names_line(&self) -> String {
+        self.last.as_ref().map_or_else(String::new, Line::trimmed)
+    }
+
     /// An error about the header, or the file where it has none.
     pub fn error(&self, text: &Text, expected: impl Into<String>, found: &str) -> RecordError {
         match &self.last {
@@ -191,7 +251,23 @@ impl<'a> Header<'a> {
 }
 
 fn comment_mark_cut(line: &Line) -> String {
-    line.trimmed().trim_start_matches(['#', '%', '!', '/', '*']).to_owned()
+    let text = line.text();
+    let marked = is_comment(line);
+    let cut = text.trim_start().trim_start_matches(['#', '%', '!', '/', '*']);
+    if marked { cut.to_owned() } else { text }
+}
+
+/// Names on a line over so many columns: empty ones behind the last name, and a tab before the first,
+/// are none where the columns are fewer.
+fn named(line: &str, separator: Separator, columns: usize) -> Vec<String> {
+    let mut names = split(line, separator);
+    while names.len() > columns && names.last().is_some_and(String::is_empty) {
+        names.pop();
+    }
+    if names.len() > columns && names.first().is_some_and(String::is_empty) {
+        names.remove(0);
+    }
+    names
 }
 
 /// Names on a line; a unit in brackets belongs to the word before it.
@@ -199,12 +275,12 @@ fn split(line: &str, separator: Separator) -> Vec<String> {
     let clean = |name: &str| name.trim().trim_matches(['"', '\'']).trim().to_owned();
     match separator {
         Separator::Byte(byte) => line.split(char::from(byte)).map(clean).collect(),
-        Separator::Blank if line.contains('\t') => line.trim().split('\t').map(clean).collect(),
+        Separator::Blank if line.contains('\t') => line.split('\t').map(clean).collect(),
         Separator::Blank => {
             let mut names: Vec<String> = Vec::new();
             for word in line.split_whitespace() {
                 match names.last_mut() {
-                    Some(name) if word.starts_with(['(', '[']) => {
+                    Some(name) if word.starts_with(['(', '[', '{']) => {
                         name.push(' ');
                         name.push_str(word);
                     }
@@ -222,33 +298,72 @@ impl Name {
         Self { text, unit }
     }
 
-    /// Whether the column holds times.
-    pub fn is_time(&self) -> bool {
+    /// The name without its unit.
+    pub fn base(&self) -> &str {
+        let suffix = || suffixes(&self.text).find(|(_, word)| known(word).is_some());
+        let word = || last_word(&self.text).filter(|(_, word)| known(word).is_some());
+        bracket(&self.text).or_else(suffix).or_else(word).map_or(&self.text, |(base, _)| base)
+    }
+
+    /// Whether it is the ground acceleration of Eurocode 8, which states no unit.
+    pub fn is_ground_acceleration(&self) -> bool {
+        is_symbol_of_ground(&self.text)
+    }
+
+    /// Whether its unit is one of time.
+    pub fn has_time_unit(&self) -> bool {
         matches!(self.unit, Some(Unit::Time(_)))
-            || matches!(self.text.to_lowercase().as_str(), "t" | "time")
     }
 }
 
-/// `name (unit)` or `name [unit]`, in two.
+/// `name (unit)`, in any brackets, in two.
 pub fn bracket(name: &str) -> Option<(&str, &str)> {
-    let (start, unit) = name.trim().strip_suffix([')', ']'])?.rsplit_once(['(', '['])?;
+    const OPEN: [char; 4] = ['(', '[', '{', '<'];
+    let (start, unit) = name.trim().strip_suffix([')', ']', '}', '>'])?.rsplit_once(OPEN)?;
     Some((start.trim(), unit.trim()))
 }
 
-/// The unit in a column's name: in brackets, or after an underscore (`_m_per_s2`).
+/// What follows each underscore of a name, the longest first, with what stands before.
+fn suffixes(name: &str) -> impl Iterator<Item = (&str, &str)> {
+    let all = name.match_indices('_').map(|(at, _)| (&name[..at], &name[at + 1..]));
+    // No unit is as long as that.
+    all.filter(|(_, suffix)| (1..=24).contains(&suffix.len()))
+}
+
+/// The last of several words of a name, with what stands before: `Time s`, `a / (m/s²)`, `Sa, g`.
+fn last_word(name: &str) -> Option<(&str, &str)> {
+    let (base, word) = name.trim().rsplit_once(char::is_whitespace)?;
+    let base = base.trim_end().trim_end_matches(['/', ',', ':']).trim_end();
+    let base = base.strip_suffix(" in").unwrap_or(base);
+    (!base.is_empty()).then_some((base, word))
+}
+
+/// A unit of motion or of time.
+fn known(word: &str) -> Option<Unit> {
+    Units::parse(word).map(Unit::Motion).or_else(|| seconds(word).map(Unit::Time))
+}
+
+/// The unit in a column's name: in brackets, after an underscore (`_m_per_s2`), or as its last word.
 fn unit(name: &str) -> Option<Unit> {
-    let known = |word: &str| {
-        let time = || seconds(word).map(Unit::Time);
-        Units::parse(word).map(Unit::Motion).or_else(time)
-    };
     if let Some((_, word)) = bracket(name) {
         return Some(known(word).unwrap_or(Unit::Other));
     }
-    let suffixes = name.match_indices('_').map(|(at, _)| &name[at + 1..]);
-    let mut suffixes = suffixes.filter(|suffix| !suffix.is_empty());
+    if is_symbol_of_ground(name) {
+        return None;
+    }
     let others = ["n", "kn", "j", "hz", "rad", "deg", "kg"];
-    suffixes.find_map(|suffix| {
+    let of_suffix = |(_, suffix): (&str, &str)| {
         let other = others.contains(&suffix.to_lowercase().as_str());
         known(suffix).or_else(|| other.then_some(Unit::Other))
-    })
+    };
+    let of_word = || known(last_word(name)?.1);
+    suffixes(name).find_map(of_suffix).or_else(of_word)
+}
+
+/// Whether a name is that of the ground acceleration of Eurocode 8, `a_g` or `u_g`, whose letter g is
+/// no unit.
+fn is_symbol_of_ground(name: &str) -> bool {
+    let mut letters = name.trim().chars();
+    let (symbol, rest) = (letters.next(), letters.as_str());
+    symbol.is_some_and(|c| !c.is_ascii_digit()) && rest.eq_ignore_ascii_case("_g")
 }

@@ -48,6 +48,8 @@ impl Style {
                 };
             }
             match (commas, points) {
+                // A date and a time of day are divided by a blank, columns by the comma.
+                (1.., _) if bytes.contains(&b':') => Some(style(Separator::Byte(b','), false)),
                 (0, 0) => None,
                 (0, _) => Some(style(Separator::Blank, false)),
                 (_, 1..) => Some(style(Separator::Byte(b','), false)),

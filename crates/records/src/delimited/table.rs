@@ -2,8 +2,9 @@
 
 use core::ops::Range;
 
+use super::clock::{self, Instant};
 use super::header::{Header, is_comment};
-use super::style::Style;
+use super::style::{Separator, Style};
 use crate::text::{Line, Text};
 use slipstick_dynamics::error::RecordError;
 use slipstick_dynamics::motion::MAX_SAMPLES;
@@ -16,6 +17,8 @@ pub(super) struct Table {
     pub columns: usize,
     /// Row by row; the last row may be short if there are three columns or more.
     pub cells: Vec<f64>,
+    /// The column of times of day, whose cells here are 0, and that of dates beside them.
+    pub clock: [Option<usize>; 2],
     /// Count and step of a first line that states them.
     count: Option<CountLine>,
     /// Lines before the first of numbers, a count among them.
@@ -38,8 +41,9 @@ impl Table {
     /// for fewer or more than a count line says.
     pub fn read(text: &Text, header: &Header) -> Result<Self, RecordError> {
         let style = Style::of(text, header)?;
-        let mut table =
-            Self { style, columns: 0, cells: vec![], count: None, header_lines: header.lines };
+        let clock = [None; 2];
+        let header_lines = header.lines;
+        let mut table = Self { style, columns: 0, cells: vec![], clock, count: None, header_lines };
         let mut rows = text.lines().skip(header.lines).filter(|line| !is_comment(line));
         let mut pending = rows.next();
         if let Some(first) = pending {
@@ -96,21 +100,87 @@ impl Table {
         self.cells.chunks_exact(self.columns).map(move |row| row[column])
     }
 
-    /// Appends the numbers of a line; how many there were.
+    /// Whether the first column counts the rows: whole numbers, each one more than the last.
+    pub fn counts_rows(&self) -> bool {
+        let first = self.column(0);
+        let whole = first.clone().next().is_some_and(|value| value.fract() == 0.0);
+        let by_one = first.clone().skip(1).zip(first).all(|(after, before)| after - before == 1.0);
+        whole && by_one && self.rows() >= 3 && self.clock[0] != Some(0)
+    }
+
+    /// The times of a column in its unit, from the first on, each difference that of the decimals as
+    /// they are written; `None` where one of them has more than 18 digits after its point.
+    pub fn since_first(&self, text: &Text, column: usize) -> Option<Vec<f64>> {
+        let lines = text.lines().skip(self.header_lines).filter(|line| !is_comment(line));
+        let instants = lines.take(self.rows()).map(|line| {
+            let word = self.words(&line).into_iter().nth(column)?;
+            Instant::of(unquoted(&line.bytes[word]))
+        });
+        let instants: Option<Vec<Instant<'_>>> = instants.collect();
+        Some(clock::since_first(instants?.into_iter()))
+    }
+
+    /// The words of a line; a date and the time of day behind it are one.
+    fn words(&self, line: &Line) -> Vec<Range<usize>> {
+        let mut words: Vec<Range<usize>> = Vec::new();
+        let _: Result<(), ()> = self.style.words(line, |word| {
+            match words.last_mut() {
+                Some(date) if self.is_date_before_time(&line.bytes[date.clone()]) => {
+                    date.end = word.end;
+                }
+                _ => words.push(word),
+            }
+            Ok(())
+        });
+        words
+    }
+
+    /// Whether a word between blanks is a date, which the time of day follows.
+    fn is_date_before_time(&self, word: &[u8]) -> bool {
+        self.style.separator == Separator::Blank && clock::is_date(word)
+    }
+
+    /// Appends the numbers of a line; how many there were. Empty cells behind the last number are none.
     fn row(&mut self, text: &Text, line: &Line) -> Result<usize, RecordError> {
         let before = self.cells.len();
         let style = self.style;
+        let (mut date, mut empty): (Option<usize>, Option<Range<usize>>) = (None, None);
         style.words(line, |word| {
-            let Some(value) = style.number(&line.bytes[word.clone()]) else {
-                return Err(text.error_at(line, &word, "a finite number"));
-            };
-            self.cells.push(value);
+            if let Some(empty) = empty.as_ref().filter(|_| !word.is_empty()) {
+                return Err(text.error_at(line, empty, "a finite number"));
+            }
+            let word = date.take().unwrap_or(word.start)..word.end;
+            let bytes = unquoted(&line.bytes[word.clone()]);
+            if bytes.is_empty() && self.cells.len() > before {
+                empty.get_or_insert(word);
+            } else if self.is_date_before_time(bytes) {
+                date = Some(word.start);
+            } else {
+                let column = self.cells.len() - before;
+                let value = style.number(bytes).or_else(|| self.clock_cell(column, bytes));
+                let value = value.ok_or_else(|| text.error_at(line, &word, "a finite number"))?;
+                self.cells.push(value);
+            }
             Ok(())
         })?;
+        let columns = self.cells.len() - before;
+        if let Some(empty) = empty.filter(|_| columns < self.columns) {
+            return Err(text.error_at(line, &empty, "a finite number"));
+        }
         if self.cells.len() > 8 * MAX_SAMPLES {
             return Err(text.error(line, 0, "at most 100 000 000 rows", "more"));
         }
-        Ok(self.cells.len() - before)
+        Ok(columns)
+    }
+
+    /// What stands for a time of day, or a date, in the one column that has them.
+    fn clock_cell(&mut self, column: usize, word: &[u8]) -> Option<f64> {
+        let kind = match (clock::is_time_of_day(word), clock::is_date(word)) {
+            (true, _) => 0,
+            (_, true) => 1,
+            _ => return None,
+        };
+        (*self.clock[kind].get_or_insert(column) == column).then_some(0.0)
     }
 
     /// The first line as count and step, if the second has another length or, as a time, would
@@ -183,11 +253,7 @@ impl Table {
         expected: impl Into<String>,
     ) -> RecordError {
         let line = self.line(text, row);
-        let mut words: Vec<Range<usize>> = Vec::new();
-        let _: Result<(), ()> = self.style.words(&line, |word| {
-            words.push(word);
-            Ok(())
-        });
+        let words = self.words(&line);
         text.error_at(&line, words.get(column).unwrap_or(&(0..0)), expected)
     }
 
@@ -204,5 +270,13 @@ impl Table {
         found: &str,
     ) -> RecordError {
         text.error(&self.line(text, 0), 0, expected, found)
+    }
+}
+
+/// A word without the quotes around it.
+fn unquoted(word: &[u8]) -> &[u8] {
+    match word {
+        [b'"', inner @ .., b'"'] => inner.trim_ascii(),
+        _ => word,
     }
 }

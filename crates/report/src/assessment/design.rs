@@ -6,9 +6,10 @@ use slipstick::assessment::design::{Bounded, DesignRun, Figures, Point, Target};
 use slipstick::assessment::grid::Axis;
 use slipstick::assessment::sensitivity::Index;
 use slipstick::notice::{Notice, NoticeKind};
+use slipstick::study::travel_used_up;
 
 use super::key::title;
-use super::sheet::{Sheet, cell, failed};
+use super::sheet::{Sheet, cell, counted_as, failed};
 use crate::display::{DisplayUnits, Quantity, Unit};
 use crate::json::Json;
 use crate::number::compact;
@@ -152,7 +153,7 @@ impl DesignReport<'_> {
     fn failed_runs(&self) -> Option<Notice> {
         let records = self.records as u64;
         let bounded = self.bounded().map_or(0, |(_, bounded)| 2 * bounded.len() as u64 * records);
-        failed(&self.run.failures, self.run.found.runs + bounded, "count as beyond the gap")
+        failed(&self.run.failures, self.run.found.runs + bounded, &counted_as(&self.run.failures))
     }
 
     fn all_warnings(&self) -> Vec<Notice> {
@@ -436,6 +437,7 @@ impl DesignReport<'_> {
             ("variables", Json::List(self.run.variables.iter().map(variable).collect())),
             ("runs", Json::Count(self.run.found.runs)),
             ("failed", Json::Count(self.run.failures.len() as u64)),
+            ("used_up_travel", Json::Count(travel_used_up(&self.run.failures) as u64)),
             ("designs_beyond_gap", Json::Count(self.run.found.beyond_gap as u64)),
             ("chosen", optional(self.run.found.chosen())),
             ("robust", optional(self.robust())),

@@ -11,6 +11,7 @@ use slipstick::assessment::suite::{Recorded, condensed};
 use slipstick::input::Bound;
 use slipstick::notice::{Notice, NoticeKind};
 use slipstick::response::{DemandColumn, DemandOf};
+use slipstick::study::USUAL_FACTORS;
 use slipstick::table::{self, Cells, Column};
 
 use super::pairs;
@@ -40,9 +41,6 @@ pub struct HistoriesReport<'a> {
 /// the model has the demand.
 type Shown<'a> = (String, Option<(&'a ModelHistories, DemandColumn, usize)>);
 
-/// Factors on records beyond which it is said: FEMA P-1050 and the guidance on ground motions to ASCE/SEI 7.
-const FACTORS: core::ops::RangeInclusive<f64> = 0.25..=4.0;
-
 /// Demands that have a table, of those that there are; the last one of models with storeys alone.
 const SHOWN: [&str; 5] = [
     "peak_sliding_displacement_m",
@@ -71,8 +69,7 @@ impl HistoriesReport<'_> {
             true => " in two directions",
             false => "",
         };
-        let broken = |run: &&Result<_, FailedRun>| matches!(run, Ok((_, false)));
-        let broken = models.iter().flat_map(ModelHistories::runs).filter(broken).count();
+        let broken = models.iter().flat_map(ModelHistories::unconfirmed).count();
         let certificate = match broken {
             0 => "every certificate holds".to_owned(),
             n => format!("{n} certificates do not hold"),
@@ -95,6 +92,7 @@ impl HistoriesReport<'_> {
                 self.at()
             ),
             complete,
+            failed: broken > 0,
             display: self.display,
             warnings: self.warnings(),
             tables: self.tables(),
@@ -168,7 +166,11 @@ impl HistoriesReport<'_> {
                     "{name}no {statistic}: {count} of {of} runs have no answer, the first {failed}"
                 ));
             }
-            let (bound, value) = model.governs(peaks.first()?)?;
+            let unconfirmed = self.unconfirmed(model);
+            let Some((bound, value)) = model.governs(peaks.first()?) else {
+                return unconfirmed.map(|unconfirmed| format!("{name}{unconfirmed}"));
+            };
+            let name = name + &unconfirmed.map_or_else(String::new, |said| said + "; without it ");
             let friction = match model.bounds.len() {
                 1 => String::new(),
                 _ => format!("{} friction, ", bound.name),
@@ -184,7 +186,7 @@ impl HistoriesReport<'_> {
                 _ if model.of_pairs() => {
                     format!("{} of {} pairs", model.statistic(), model.counted())
                 }
-                all => format!("{} of {} records", model.statistic(), all.len()),
+                _ => format!("{} of {} records", model.statistic(), model.counted()),
             };
             Some(format!(
                 "{name}peak sliding displacement {} {} ({friction}{records}){gap}",
@@ -195,6 +197,21 @@ impl HistoriesReport<'_> {
         let all: Vec<String> = self.histories.models.iter().filter_map(of).collect();
         let hazard = self.hazard.map_or(String::new(), |hazard| format!("{hazard}: "));
         hazard + &all.join("; ")
+    }
+
+    /// That the check does not confirm runs: how many, the first of them, and the demand.
+    fn unconfirmed(&self, model: &ModelHistories) -> Option<String> {
+        let (on, bound, defect) = model.unconfirmed().next()?;
+        let friction = match model.bounds.len() {
+            1 => String::new(),
+            _ => format!(" with {} friction", bound.name),
+        };
+        Some(format!(
+            "CHECK FAILED for {} of {} runs, the first {}{friction}: {defect}",
+            model.unconfirmed().count(),
+            model.runs().count(),
+            on.record
+        ))
     }
 
     /// ` at MCE_R`.
@@ -335,7 +352,7 @@ impl HistoriesReport<'_> {
     /// Factors that no longer make another earthquake of a record.
     fn far_factors(&self) -> Option<Notice> {
         let records = &self.histories.models.first()?.records;
-        let far = |on: &&OnRecord| !FACTORS.contains(&on.scale.abs());
+        let far = |on: &&OnRecord| !USUAL_FACTORS.contains(&on.scale.abs());
         let count = records.iter().filter(far).count();
         let distance = |on: &OnRecord| libm::log(on.scale.abs()).abs();
         let farthest =
@@ -344,8 +361,8 @@ impl HistoriesReport<'_> {
             "{count} of {} factors are outside {} to {}, {} × {} farthest: records so much weaker or \
              stronger have other durations and frequencies than the motion that is meant",
             records.len(),
-            FACTORS.start(),
-            FACTORS.end(),
+            USUAL_FACTORS.start(),
+            USUAL_FACTORS.end(),
             farthest.record,
             cell(farthest.scale)
         );
@@ -385,8 +402,9 @@ impl HistoriesReport<'_> {
             method.push(
                 "The equivalent-lateral-force displacement is that of ASCE/SEI 7, section 17.5, worked out for \
                  each bound: D_M = Sa(T_M) (T_M/2π)²/B_M under the target spectrum, with the stiffness and the \
-                 damping of the friction loop at D_M, all mass moving together and B_M of table 17.5-1. The \
-                 ends of travel and the difference of static and kinetic friction are not in it."
+                 damping of the friction loop at D_M, all mass moving together and B_M of table 17.5-1. A \
+                 surface in series whose travel is used up slides no further; stops and the difference of static \
+                 and kinetic friction are not in it."
                     .to_owned(),
             );
         }
@@ -408,8 +426,7 @@ impl HistoriesReport<'_> {
                  every run."
             }
         };
-        let limits = self.factors.and_then(code::limits_not_reached);
-        core::iter::once(governs.to_owned()).chain(limits).collect()
+        vec![governs.to_owned()]
     }
 
     /// What was noticed of the records and the runs, each kind once with the record that gave it first.
@@ -422,10 +439,30 @@ impl HistoriesReport<'_> {
         let count_as = "leave their model without a mean or maximum";
         let unanswered = failed(&unanswered, runs as u64, count_as);
         let far = self.far_factors().filter(|_| !self.scaled.is_empty());
+        let passed = models.iter().flat_map(|model| self.passed(model));
         let records = models.iter().flat_map(|model| &model.records);
         let of_records = condensed(records.map(|on| (&on.record[..], &on.notices[..])));
         let of_suite = self.histories.notices.iter().cloned();
-        let all = unanswered.into_iter().chain(far).chain(of_suite).chain(of_records);
+        let milder = self.factors.and_then(code::milder_than_code);
+        let unconfirmed = models.iter().filter_map(|model| {
+            let left = model.of_earthquakes() - model.counted();
+            let what = if model.of_pairs() { "pairs" } else { "records" };
+            let message = format!(
+                "{}; {left} of {} {what} are left out of the {}",
+                self.unconfirmed(model)?,
+                model.of_earthquakes(),
+                model.statistic()
+            );
+            Some(Notice::new(NoticeKind::CheckFailed, message))
+        });
+        let all = unanswered
+            .into_iter()
+            .chain(unconfirmed)
+            .chain(passed)
+            .chain(milder)
+            .chain(far)
+            .chain(of_suite)
+            .chain(of_records);
         let mut all: Vec<Notice> = all.collect();
         Notice::sort(&mut all);
         all
@@ -448,6 +485,8 @@ impl HistoriesReport<'_> {
                 ("damping_ratio", found.damping_ratio.into()),
                 ("damping_factor", found.damping_factor.into()),
                 ("period_s", found.period_s.into()),
+                ("passes", found.passes.map_or(Json::Null, |(what, _)| what.into())),
+                ("passes_m", found.passes.map(|(_, reach_m)| reach_m).into()),
             ])
         });
         vec![

@@ -8,12 +8,13 @@ use slipstick::assessment::fragility::Fragility;
 use slipstick::assessment::ida::{Crossing, Curve, demand_fractiles, level_fractiles};
 use slipstick::assessment::observed::Averaged;
 use slipstick::notice::{Notice, NoticeKind};
+use slipstick::study::{Demanded, travel_used_up};
 
 pub use family::IdaFamily;
 
 use super::key::{of_measure, quantity, title};
 use super::lines::{FRACTILES, RECORD, clipped, line, panel, share_names, single};
-use super::sheet::{Sheet, cell, counted, failed};
+use super::sheet::{Sheet, cell, counted, counted_as, failed};
 use crate::display::{DisplayUnits, Unit};
 use crate::figures::Drawn;
 use crate::json::Json;
@@ -50,9 +51,6 @@ pub struct IdaReport<'a> {
     pub display: DisplayUnits,
 }
 
-/// What a run without an answer is in a curve.
-const BEYOND: &str = "count as above any limit";
-
 impl IdaReport<'_> {
     /// Number of runs.
     #[must_use]
@@ -75,7 +73,7 @@ impl IdaReport<'_> {
         if let Some(limit) = self.limit {
             return limit;
         }
-        let all = self.curves.iter().flat_map(|c| c.demands.iter().copied());
+        let all = self.curves.iter().flat_map(|c| c.demands.iter().map(|demand| demand.value()));
         all.filter(|d| d.is_finite()).fold(0.0, f64::max)
     }
 
@@ -92,10 +90,10 @@ impl IdaReport<'_> {
         }
         let levels = self.curves.first().map_or(&[][..], |curve| &curve.levels[..]);
         let of = |(i, level): (usize, &f64)| {
-            let there: Vec<f64> = self
+            let there: Vec<Demanded> = self
                 .curves
                 .iter()
-                .map(|curve| curve.demands.get(i).copied().unwrap_or(f64::NAN))
+                .map(|curve| curve.demands.get(i).copied().unwrap_or(Demanded::Unknown))
                 .collect();
             (*level, demand_fractiles(&there))
         };
@@ -196,7 +194,9 @@ impl IdaReport<'_> {
 
     fn all_warnings(&self) -> Vec<Notice> {
         let mut all: Vec<Notice> =
-            failed(self.failures, self.runs() as u64, BEYOND).into_iter().collect();
+            failed(self.failures, self.runs() as u64, &counted_as(self.failures))
+                .into_iter()
+                .collect();
         if self.limit.is_some() {
             let back: Vec<String> = self
                 .crossings()
@@ -215,7 +215,21 @@ impl IdaReport<'_> {
                 })
                 .collect();
             all.extend(counted(NoticeKind::Resurrection, &back));
-            let never = self.crossings().iter().filter(|crossing| !crossing.reached).count();
+            let crossings = self.crossings();
+            let cut_short = crossings.iter().filter(|crossing| crossing.cut_short).count();
+            if cut_short > 0 {
+                let message = format!(
+                    "{cut_short} of {} {} end in runs of which nothing is known below the limit: they are left out of \
+                     the fractiles, and their capacity is known up to those runs only",
+                    self.records.len(),
+                    self.each()
+                );
+                all.push(Notice::new(NoticeKind::LimitNotReached, message));
+            }
+            let never = crossings
+                .iter()
+                .filter(|crossing| !crossing.reached && !crossing.cut_short)
+                .count();
             if never > 0 {
                 let message = format!(
                     "{never} of {} {} do not reach the limit at their highest level: their \
@@ -298,14 +312,15 @@ impl IdaReport<'_> {
             .curves
             .iter()
             .flat_map(|curve| curve.levels.iter().zip(&curve.demands))
-            .filter(|(_, demand)| **demand <= 1.6 * largest)
+            .filter(|(_, demand)| demand.value() <= 1.6 * largest)
             .map(|(level, _)| im.of(*level))
             .fold(0.0, f64::max);
         let y_end = if top > 0.0 { 1.05 * top } else { 1.0 };
         let ends = [x_end, y_end];
         let of_curve = |curve: &Curve| -> Vec<[f64; 2]> {
             let points = curve.levels.iter().zip(&curve.demands);
-            let points = points.map(|(level, demand)| [edp.of(*demand), im.of(*level)]);
+            let known = points.filter(|(_, demand)| !demand.value().is_nan());
+            let points = known.map(|(level, demand)| [edp.of(demand.value()), im.of(*level)]);
             std::iter::once([0.0, 0.0]).chain(points).collect()
         };
         let mut series: Vec<Series> = Vec::new();
@@ -350,7 +365,8 @@ impl IdaReport<'_> {
              runs; a return below the limit beyond it is reported above and not used."
                 .to_owned(),
             "Fractiles interpolate linearly between sorted values, at position p (n − 1) counted from 0; \
-             a failed run, and a record that does not reach, count as above all."
+             a record that does not reach, and the sliding displacement of a run that used up its travel, count as \
+             above all. A run without an answer for another reason is left out."
                 .to_owned(),
         ];
         if !self.fixed_levels {
@@ -371,7 +387,7 @@ impl IdaReport<'_> {
             let mut members = vec![
                 ("record", record.as_str().into()),
                 ("levels", numbers(&curve.levels)),
-                ("demands", numbers(&curve.demands)),
+                ("demands", numbers(&curve.demands.iter().map(|d| d.value()).collect::<Vec<_>>())),
             ];
             if self.limit.is_some() {
                 members.extend([
@@ -415,6 +431,7 @@ impl IdaReport<'_> {
             ("limit", self.limit.into()),
             ("runs", Json::Count(self.runs() as u64)),
             ("failed", Json::Count(self.failures.len() as u64)),
+            ("used_up_travel", Json::Count(travel_used_up(self.failures) as u64)),
             ("shares", numbers(&SHARES)),
             ("capacity", capacity),
             ("lognormal", fit),

@@ -5,6 +5,7 @@ use std::fmt::Display;
 use slipstick::assessment::FailedRun;
 use slipstick::assessment::suite::Recorded;
 use slipstick::notice::{Notice, NoticeKind};
+use slipstick::study::travel_used_up;
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 
 use crate::VERSION;
@@ -249,12 +250,27 @@ pub(crate) fn cell(value: f64) -> String {
     if value.is_finite() { crate::number::significant(value, 4) } else { "—".to_owned() }
 }
 
-/// Runs without an answer, of so many, as one warning; what they count as is the analysis's to say.
+/// Runs without an answer, of so many, as one warning.
 pub(super) fn failed(runs: &[FailedRun], of: u64, count_as: &str) -> Option<Notice> {
     let first = runs.first()?;
     let message =
         format!("{} of {of} runs have no answer and {count_as}; the first: {first}", runs.len());
     Some(Notice::new(NoticeKind::FailedRuns, message))
+}
+
+/// What runs without an answer count as where demands are counted or put in order.
+pub(super) fn counted_as(runs: &[FailedRun]) -> String {
+    let beyond = travel_used_up(runs);
+    match (beyond, runs.len() - beyond) {
+        (0, _) => "are left out".to_owned(),
+        (_, 0) => "used up their travel: their sliding displacement exceeds every limit up to it, all else of them is \
+                   left out"
+            .to_owned(),
+        (_, left) => format!(
+            "are left out ({left}) or used up their travel ({beyond}: their sliding displacement exceeds every limit \
+             up to it)"
+        ),
+    }
 }
 
 /// A heading for a list of warnings from the messages of runs: each message once, with its count.

@@ -2,10 +2,11 @@
 
 use slipstick::assessment::spectrum::{DemandCurves, SpectrumRun};
 use slipstick::notice::Notice;
+use slipstick::study::travel_used_up;
 
 use super::key::{quantity, title};
 use super::lines::{BAND, FRACTILES, GROUPS, RECORD, band, line, panel, share_names, stacked};
-use super::sheet::{Sheet, cell, failed};
+use super::sheet::{Sheet, cell, counted_as, failed};
 use crate::display::{DisplayUnits, Unit};
 use crate::json::Json;
 use crate::number::compact;
@@ -72,10 +73,14 @@ impl<'s> SpectrumReport<'s> {
             line: format!("{} runs: {records}{}", self.run.runs, self.scaled),
             display: self.display,
             verdict: self.verdict(),
-            warnings: failed(&self.run.failures, self.run.runs as u64, "count as above all")
-                .into_iter()
-                .chain(self.run.warnings.iter().chain(self.warnings).cloned())
-                .collect(),
+            warnings: failed(
+                &self.run.failures,
+                self.run.runs as u64,
+                &counted_as(&self.run.failures),
+            )
+            .into_iter()
+            .chain(self.run.warnings.iter().chain(self.warnings).cloned())
+            .collect(),
             complete: self.run.failures.is_empty(),
             tables: self.tables(),
             notes: self.notes(),
@@ -333,6 +338,7 @@ impl<'s> SpectrumReport<'s> {
             ("records", texts(self.records)),
             ("runs", Json::Count(self.run.runs as u64)),
             ("failed", Json::Count(self.run.failures.len() as u64)),
+            ("used_up_travel", Json::Count(travel_used_up(&self.run.failures) as u64)),
             ("curves", Json::List(curves)),
             ("windows", windows),
         ]

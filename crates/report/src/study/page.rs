@@ -72,8 +72,7 @@ impl StudyReport<'_> {
     }
 
     fn unit(&self, demand: DemandColumn) -> Unit {
-        let largest = self.rows(demand).iter().fold(0.0, |l: f64, row| l.max(row.max.abs()));
-        self.display.unit(demand.dimension().into(), largest)
+        self.display.unit(demand.dimension().into(), super::largest(&self.rows(demand)))
     }
 
     /// What is asked for first: displacement, acceleration at the top, drift of the lowest storey.
@@ -114,17 +113,30 @@ impl StudyReport<'_> {
         let say = |demand: DemandColumn| {
             let row = self.governs(demand)?;
             let unit = self.unit(demand);
-            let [low, middle, high] = row.quantiles.map(|value| cell(unit.of(value)));
-            let number = |text: String| format!("{text} {}", unit.symbol).trim_end().to_owned();
+            let told = |value: f64| match value.is_infinite() {
+                true => "beyond the travel".to_owned(),
+                false => format!("{} {}", cell(unit.of(value)), unit.symbol).trim_end().to_owned(),
+            };
+            let [low, middle, high] = row.quantiles;
+            let low = if low.is_finite() { cell(unit.of(low)) } else { told(low) };
+            let record = shortened(super::file_name(&row.max_record), 40);
+            let run = row.max_run.map_or_else(String::new, count);
+            let largest = match row.beyond {
+                0 => format!("largest {} ({record}, run {run})", told(row.max)),
+                beyond => {
+                    let all = count(row.runs - row.failures + beyond);
+                    format!(
+                        "{} of {all} runs used up the travel, the first of them {record}, run {run}",
+                        count(beyond)
+                    )
+                }
+            };
             Some(format!(
-                "{} {}: median {} (16 to 84 %: {low} to {}), largest {} ({}, run {}).",
+                "{} {}: median {} (16 to 84 %: {low} to {}), {largest}.",
                 self.summary.names.title(&demand),
                 self.at(row),
-                number(middle),
-                number(high),
-                number(cell(unit.of(row.max))),
-                shortened(super::file_name(&row.max_record), 40),
-                row.max_run.map_or_else(String::new, count)
+                told(middle),
+                told(high),
             ))
         };
         let mut said: Vec<String> = self.answers().into_iter().filter_map(say).take(2).collect();
@@ -145,10 +157,8 @@ impl StudyReport<'_> {
 
     fn warnings(&self) -> Vec<Notice> {
         let warn = |kind, message| Notice::new(kind, message);
-        let failures = self.summary.failures();
-        let failed = (failures > 0).then(|| {
-            let message =
-                format!("{} runs failed: see the column status of the parts", count(failures));
+        let failed = super::without_answer(self.summary).map(|message| {
+            let message = format!("{message}: see the column status of the parts");
             warn(NoticeKind::FailedRuns, message)
         });
         let rows: u64 = {
@@ -173,7 +183,10 @@ impl StudyReport<'_> {
         };
         let table = |demand: DemandColumn| {
             let unit = self.unit(demand);
-            let number = |si: f64| cell(unit.of(si));
+            let number = |si: f64| match si.is_infinite() {
+                true => "beyond".to_owned(),
+                false => cell(unit.of(si)),
+            };
             let heads = ["Runs", "16 %", "Median", "84 %", "Mean", "Largest", "Record", "Run"];
             let heads = heads.map(str::to_owned);
             let friction = bounded.then(|| "Friction".to_owned());
@@ -183,7 +196,7 @@ impl StudyReport<'_> {
                 let [low, middle, high] = row.quantiles.map(number);
                 let friction = row.friction.map(str::to_owned);
                 let cells = [
-                    count(row.runs - row.failures),
+                    count(row.runs - row.failures + row.beyond),
                     low,
                     middle,
                     high,
@@ -259,7 +272,10 @@ impl StudyReport<'_> {
             let of = |pick: &dyn Fn(&LevelSummary) -> f64| -> Vec<f64> {
                 own.iter().map(|row| unit.of(pick(row))).collect()
             };
-            let points = |y: Vec<f64>| x.iter().copied().zip(y).map(|(x, y)| [x, y]).collect();
+            let points = |y: Vec<f64>| {
+                let known = x.iter().copied().zip(y).filter(|(_, y)| y.is_finite());
+                known.map(|(x, y)| [x, y]).collect()
+            };
             let (low, high) = (of(&|row| row.quantiles[0]), of(&|row| row.quantiles[2]));
             if !many {
                 series.push(band(&x, &low, &high, "16 to 84 %", BAND));
@@ -292,11 +308,8 @@ impl StudyReport<'_> {
         let mut series = Vec::new();
         for (i, bound) in self.bounds().iter().enumerate() {
             for row in rows.iter().filter(|row| row.friction == *bound) {
-                let points = row
-                    .distribution
-                    .iter()
-                    .map(|[p, value]| [unit.of(*value), 100.0 * p])
-                    .collect();
+                let known = row.distribution.iter().filter(|[_, value]| value.is_finite());
+                let points = known.map(|[p, value]| [unit.of(*value), 100.0 * p]).collect();
                 let label = bound.map_or(String::new(), |bound| format!("{bound} friction"));
                 series.push(line(label, GROUPS[i % GROUPS.len()], points));
             }

@@ -4,7 +4,7 @@ use slipstick::check::Certificate;
 use slipstick::notice::{Notice, NoticeKind};
 use slipstick::response::{Method, Response, flat_geometry};
 
-use super::{SummaryInputs, exceeds};
+use super::SummaryInputs;
 use crate::number::{compact, rounded, significant};
 
 /// Below this margin a slightly different record would tell another story.
@@ -53,16 +53,8 @@ fn check_failed(response: &Response, certificate: &Certificate) -> Option<Notice
     if response.method != Method::Exact || certificate.holds() {
         return None;
     }
-    let failed: Vec<String> = [
-        ("equilibrium residual", certificate.equilibrium_residual),
-        ("friction excess", certificate.friction_excess),
-        ("energy balance error", certificate.energy_balance_error),
-        ("demands error", certificate.demands_error),
-    ]
-    .into_iter()
-    .filter(|(_, figure)| exceeds(*figure, certificate.bound))
-    .map(|(name, figure)| format!("{name} {}", significant(figure, 2)))
-    .collect();
+    let named = |(name, figure): (String, f64)| format!("{name} {}", significant(figure, 2));
+    let failed: Vec<String> = certificate.defects().into_iter().map(named).collect();
     Some(Notice::new(
         NoticeKind::CheckFailed,
         format!(

@@ -652,7 +652,8 @@ export class Loop {
       const size = 10 ** Math.floor(Math.log10(raw));
       const step = [1, 2, 5, 10].map((n) => n * size).find((n) => n >= raw) ?? size;
       const list: number[] = [];
-      for (let v = Math.ceil(from / unit / step) * step; v <= to / unit + 1e-9; v += step) list.push(v);
+      // Multiples of the step, not sums of it: what is zero is 0 and no rounding.
+      for (let k = Math.ceil(from / unit / step); k * step <= to / unit + 1e-9; k++) list.push(k * step);
       return list;
     };
     c.beginPath();

@@ -33,7 +33,7 @@ export class SweepTab implements Tab {
     const form = h(
       "form",
       {},
-      h("p", { class: "drop-hint" }, "How peaks follow one value of the model, all else as it stands. Click in a picture to take the value over."),
+      h("p", { class: "drop-hint" }, "How peaks follow one value of the model, all else as it stands; where that is kinetic friction, static friction keeps its ratio to it. Click in a picture to take the value over."),
       h("label", { class: "field" }, h("span", {}, "Value"), this.path),
       h("label", { class: "field" }, h("span", {}, "From"), this.from),
       h("label", { class: "field" }, h("span", {}, "To"), this.to),

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use slipstick::error::listed;
 use slipstick::record::Channel;
 use slipstick_files::{
     FileNames, OutputFolder, Wanted, WrittenFormat, channels, open_record, refuse_inputs,
@@ -77,7 +78,7 @@ impl Output {
                         "{}: expected one channel for one file: add --channel, or name a folder \
                          (channels: {})",
                         path.display(),
-                        names.collect::<Vec<_>>().join(", ")
+                        listed(names)
                     )))
                 }
             },

@@ -2,6 +2,7 @@
 
 use std::process::ExitCode;
 
+use slipstick::error::listed;
 use slipstick::motion::{logarithmic_periods, spectrum};
 use slipstick_files::{FileError, Wanted, channels, open_record, refuse_inputs, write_whole};
 use slipstick_report::DisplayUnits;
@@ -59,13 +60,12 @@ pub fn plot(args: &PlotArgs) -> Result<ExitCode, Failure> {
         let svgs: Vec<_> = figures.iter().map(|figure| figure.svg.clone()).collect();
         plot::column(&svgs).as_str().to_owned()
     } else {
-        let names: Vec<String> =
-            drawn.iter().map(|(info, _)| format!("{:?}", info.channel)).collect();
+        let names = drawn.iter().map(|(info, _)| format!("{:?}", info.channel));
         return Err(Failure::Message(format!(
             "{}: expected one channel for one figure: add --channel, or name a page that ends in \
              .html (channels: {})",
             args.out.display(),
-            names.join(", ")
+            listed(names)
         )));
     };
     write_whole(&args.out, text.as_bytes())?;

@@ -50,7 +50,8 @@ impl ModelHistories {
     #[must_use]
     pub fn governing_alone(&self, bound: usize, of: impl Fn(&Alone) -> f64) -> f64 {
         let alone = |on: &OnRecord| on.alone.get(bound).copied().flatten();
-        let sizes = self.records.iter().map(|on| alone(on).map_or(f64::NAN, |found| of(&found)));
+        let confirmed = self.records.iter().filter(|on| !on.is_unconfirmed());
+        let sizes = confirmed.map(|on| alone(on).map_or(f64::NAN, |found| of(&found)));
         self.statistic_of(&sizes.collect::<Vec<f64>>())
     }
 }

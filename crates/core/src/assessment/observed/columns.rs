@@ -120,8 +120,8 @@ impl<'a> Columns<'a> {
         };
         let number = |(row, text): (usize, &String)| match text.trim() {
             "" => Ok(f64::NAN),
-            "true" => Ok(1.0),
-            "false" => Ok(0.0),
+            text if text.eq_ignore_ascii_case("true") => Ok(1.0),
+            text if text.eq_ignore_ascii_case("false") => Ok(0.0),
             text => text.parse::<f64>().ok().filter(|v| !v.is_nan()).ok_or_else(|| {
                 let shown: String = text.chars().take(40).collect();
                 not_a_number(row, name, format!("{shown:?}"))

@@ -129,6 +129,12 @@ impl Intensity {
         Ok(Self { measure, unit: unit.to_owned(), column, written: written.map(|(_, unit)| unit) })
     }
 
+    /// What one unit of the table is in SI, and its name; else `si`.
+    pub(super) fn as_written(&self, si: &str) -> (f64, String) {
+        let written = self.written.map(|unit| (unit.to_si(1.0), unit.name().to_owned()));
+        written.unwrap_or_else(|| (1.0, si.to_owned()))
+    }
+
     /// The intensities of all rows, in SI.
     pub(super) fn values(&self, columns: Columns<'_>) -> Result<Vec<f64>, AssessmentError> {
         let si = |value: f64| self.written.map_or(value, |unit| unit.to_si(value));

@@ -10,6 +10,7 @@ use crate::assessment::fragility::{Capacity, CloudPoint, Stripe};
 use crate::assessment::ida::Curve;
 use crate::assessment::{AssessmentError, refuse};
 use crate::notice::{Notice, NoticeKind};
+use crate::study::{Demanded, TRAVEL_USED_UP};
 
 /// What single runs were made into, and why.
 pub(super) struct OfRuns {
@@ -35,8 +36,7 @@ pub(super) fn of_runs(
         return Err(refuse("limit", "a limit on the demand, such as \"150 mm\"", "nothing"));
     };
     let levels = intensity.values(columns)?;
-    let demands: Vec<f64> =
-        columns.numbers_or_nan(request.demand)?.into_iter().map(f64::abs).collect();
+    let demands = demanded(columns, request.demand)?;
     let records = columns.records();
     let clusters = columns.clusters().map(|(_, clusters)| clusters);
     let hunted = columns.first_text(LEVEL_CHOICE).is_some_and(|choice| choice == "hunted");
@@ -50,7 +50,7 @@ pub(super) fn of_runs(
         (None, true) => (FitTo::Capacities, "the levels were hunted for each record".to_owned()),
         (None, false) => natural(&levels, records.as_ref()),
     };
-    let mut warn = |kind, message| warnings.push(Notice::new(kind, message));
+    warnings.extend(without_answer(&demands, limit, fit_to));
     if fit_to == FitTo::Capacities {
         let Some(records) = records else { return Err(columns.lacking("fit-to", "record")) };
         let (capacities, row_of) = crossings(columns, &records, &levels, &demands, limit)?;
@@ -58,15 +58,13 @@ pub(super) fn of_runs(
         let clusters = Records::numbered(row_of.iter().map(|&row| clusters.of_row[row]));
         return Ok(OfRuns { data: Data::Capacities(capacities), clusters: Some(clusters), why });
     }
-    let failed = demands.iter().filter(|demand| demand.is_nan()).count();
-    if failed > 0 {
-        warn(
-            NoticeKind::FailedRuns,
-            format!("{failed} of {} runs have no demand and are left out", demands.len()),
-        );
-    }
-    let kept: Vec<usize> = (0..demands.len()).filter(|&row| !demands[row].is_nan()).collect();
-    // A cluster of which all runs failed is none.
+    // A cloud takes what is known of a demand, counts what is known of the limit.
+    let is_kept = |demand: &Demanded| match fit_to {
+        FitTo::Cloud => *demand != Demanded::Unknown,
+        _ => demand.exceeds(limit).is_some(),
+    };
+    let kept: Vec<usize> = (0..demands.len()).filter(|&row| is_kept(&demands[row])).collect();
+    // A cluster of which no run is known is none.
     let of_kept =
         clusters.map(|clusters| Records::numbered(kept.iter().map(|&row| clusters.of_row[row])));
     if fit_to == FitTo::Counts {
@@ -81,7 +79,7 @@ pub(super) fn of_runs(
                 exceeded: 0,
             });
             stripe.runs += 1;
-            stripe.exceeded += u64::from(demands[row] > limit);
+            stripe.exceeded += u64::from(demands[row].exceeds(limit) == Some(true));
         }
         let of_row = counts.keys().map(|(_, cluster)| *cluster).collect();
         let clusters = of_kept.map(|clusters| Records { of_row, count: clusters.count });
@@ -91,9 +89,14 @@ pub(super) fn of_runs(
     let floor = request.floor.unwrap_or(0.0);
     let mut points = Vec::with_capacity(kept.len());
     for &row in &kept {
-        let (level, demand) = (levels[row], demands[row]);
+        let level = levels[row];
+        let (demand, is_bound) = match demands[row] {
+            Demanded::AtLeast(reached) => (reached, true),
+            known => (known.value(), false),
+        };
         let (demand, known) = match request.cap {
             Some(cap) if demand > cap => (cap, Known::AtLeast),
+            _ if is_bound => (demand, Known::AtLeast),
             _ if demand < floor => (floor, Known::AtMost),
             _ if demand == 0.0 => {
                 let expected = "a floor for the runs in which nothing moves, such as \"1 mm\"";
@@ -140,7 +143,7 @@ fn crossings(
     columns: Columns<'_>,
     records: &Records,
     levels: &[f64],
-    demands: &[f64],
+    demands: &[Demanded],
     limit: f64,
 ) -> Result<(Vec<Capacity>, Vec<usize>), AssessmentError> {
     let (_, designs) = rows::designs(columns)?;
@@ -155,11 +158,47 @@ fn crossings(
         curves[curve].insert(levels[row], demands[row]);
         row_of[curve] = row;
     }
-    let capacity = |curve: &Curve| {
+    let known = |(curve, row): (&Curve, usize)| {
         let crossing = curve.first_crossing(limit);
-        Capacity { level: crossing.level, reached: crossing.reached }
+        crossing.is_known().then(|| (crossing.capacity(), row))
     };
-    Ok((curves.iter().map(capacity).collect(), row_of))
+    Ok(curves.iter().zip(row_of).filter_map(known).unzip())
+}
+
+/// What runs say of a demand.
+fn demanded(columns: Columns<'_>, demand: &str) -> Result<Vec<Demanded>, AssessmentError> {
+    let sizes = columns.numbers_or_nan(demand)?.into_iter().map(f64::abs);
+    let used_up = match columns.has(TRAVEL_USED_UP) {
+        true => columns.numbers_or_nan(TRAVEL_USED_UP)?,
+        false => vec![f64::NAN; sizes.len()],
+    };
+    let known = |travel_m: f64| (!travel_m.is_nan()).then_some(travel_m);
+    let of = |(size, travel_m)| Demanded::of(demand, size, known(travel_m));
+    Ok(sizes.zip(used_up).map(of).collect())
+}
+
+/// How many runs have no answer, and what they count as.
+fn without_answer(demands: &[Demanded], limit: f64, fit_to: FitTo) -> Option<Notice> {
+    let all = demands.len();
+    let missing = demands.iter().filter(|demand| demand.value().is_nan()).count();
+    if missing == 0 {
+        return None;
+    }
+    let beyond = |demand: &&Demanded| match fit_to {
+        FitTo::Cloud => matches!(demand, Demanded::AtLeast(_)),
+        _ => matches!(demand, Demanded::AtLeast(_)) && demand.reaches(limit) == Some(true),
+    };
+    let beyond = demands.iter().filter(beyond).count();
+    let left = missing - beyond;
+    let message = match (beyond, left) {
+        (0, _) => format!("{missing} of {all} runs have no demand and are left out"),
+        (_, 0) => format!("{missing} of {all} runs used up their travel and count as beyond it"),
+        _ => format!(
+            "{missing} of {all} runs have no demand: {beyond} used up their travel and count as beyond it, \
+             {left} are left out"
+        ),
+    };
+    Some(Notice::new(NoticeKind::FailedRuns, message))
 }
 
 /// Counts of equal levels added up, by rising level.

@@ -136,13 +136,19 @@ fn prop_search_equals_the_full_grid_for_any_target() {
 }
 
 #[test]
-fn failed_runs_are_beyond_everything() {
+fn runs_beyond_the_gap_count_and_runs_without_an_answer_do_not() {
     let target = Target { gap_m: 1.0, probability: 0.5, acceleration_share: 0.5 };
-    let failed = Demand { displacement_m: f64::NAN, acceleration_m_per_s2: f64::NAN };
+    let beyond = Demand { displacement_m: f64::INFINITY, acceleration_m_per_s2: f64::NAN };
+    let unknown = Demand { displacement_m: f64::NAN, acceleration_m_per_s2: f64::NAN };
     let fine = Demand { displacement_m: 0.5, acceleration_m_per_s2: 2.0 };
-    let figures = target.figures(&[failed, fine, failed, fine]).unwrap();
+    let figures = target.figures(&[beyond, fine, beyond, fine]).unwrap();
     assert_eq!((figures.displacement_m, figures.within.estimate()), (0.5, 0.5));
-    assert_eq!(target.figures(&[failed, failed, fine]).unwrap().displacement_m, f64::INFINITY);
+    assert_eq!(target.figures(&[beyond, beyond, fine]).unwrap().displacement_m, f64::INFINITY);
+    let figures = target.figures(&[unknown, fine, unknown, unknown, beyond]).unwrap();
+    assert_eq!((figures.displacement_m, figures.within.estimate()), (0.5, 0.5));
+    // A design of which nothing is known keeps no gap.
+    let figures = target.figures(&[unknown; 3]).unwrap();
+    assert_eq!((figures.displacement_m, figures.within.estimate()), (f64::INFINITY, 0.0));
     for target in [
         Target { gap_m: 0.0, ..target },
         Target { probability: 0.0, ..target },

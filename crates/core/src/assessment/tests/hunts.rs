@@ -1,6 +1,7 @@
 //! Crossings of curves, and the search for them.
 
-use crate::assessment::ida::{Curve, Hunt, level_fractiles};
+use crate::assessment::ida::{Curve, Hunt, demand_fractiles, level_fractiles};
+use crate::study::Demanded;
 
 fn curve(points: &[(f64, f64)]) -> Curve {
     let mut curve = Curve::default();
@@ -29,14 +30,37 @@ fn first_crossing_between_points() {
 }
 
 #[test]
-fn resurrection_is_told_and_failure_crosses() {
+fn resurrection_is_told() {
     let back = curve(&[(0.1, 1.0), (0.2, 3.0), (0.3, 1.5), (0.4, 4.0)]);
     let found = back.first_crossing(2.0);
     assert!((found.level - 0.15).abs() < 1e-15);
     assert_eq!(found.returns, Some(0.3));
-    let failed = curve(&[(0.1, 1.0), (0.2, f64::NAN), (0.3, 5.0)]);
-    let found = failed.first_crossing(2.0);
-    assert_eq!((found.level, found.between), (0.2, [0.1, 0.2]));
+}
+
+/// A run that used up its travel crosses every limit up to that travel, at its level. What is not known is no point
+/// of the curve, and a curve that ends in such runs is known up to them.
+#[test]
+fn a_travel_used_up_crosses_and_no_answer_does_not() {
+    let mut ended = curve(&[(0.1, 1.0), (0.3, 5.0)]);
+    ended.insert(0.2, Demanded::AtLeast(3.0));
+    for limit in [1.5, 3.0] {
+        let found = ended.first_crossing(limit);
+        assert_eq!((found.level, found.between, found.reached), (0.2, [0.1, 0.2], true));
+    }
+    let found = ended.first_crossing(3.5);
+    assert_eq!((found.between, found.reached), ([0.1, 0.3], true));
+    assert!((found.level - (0.1 + 0.2 * 2.5 / 4.0)).abs() < 1e-15);
+    let unknown = curve(&[(0.1, 1.0), (0.2, f64::NAN), (0.3, 5.0)]);
+    assert_eq!(unknown.first_crossing(3.0).level, 0.2);
+    let ends = curve(&[(0.1, 1.0), (0.2, f64::NAN)]);
+    let found = ends.first_crossing(2.0);
+    assert_eq!((found.level, found.reached, found.cut_short), (0.1, false, true));
+    assert!(!curve(&[(0.1, f64::NAN)]).first_crossing(2.0).is_known());
+    // Left out of the fractiles of levels, and of those of demands.
+    assert_eq!(level_fractiles(&[ends, ended], 3.0)[1], 0.2);
+    let demands = [Demanded::Value(1.0), Demanded::Unknown, Demanded::AtLeast(2.0)];
+    assert_eq!(demand_fractiles(&demands)[1], f64::INFINITY);
+    assert_eq!(demand_fractiles(&demands[..2])[1], 1.0);
 }
 
 #[test]
@@ -77,10 +101,14 @@ fn hunt_stops_at_the_top() {
     let found = hunt.run(|level| 0.1 * level);
     let crossing = found.first_crossing(1.0);
     assert_eq!((crossing.level, crossing.reached), (3.0, false));
-    // Below the limit everywhere, failures from a level on: the crossing is where they start.
-    let found = hunt.run(|level| if level > 0.77 { f64::NAN } else { 0.0 });
+    // Below the limit everywhere, beyond it from a level on: the crossing is where that starts.
+    let found = hunt.run(|level| if level > 0.77 { f64::INFINITY } else { 0.0 });
     let crossing = found.first_crossing(1.0);
     assert!(crossing.reached && (crossing.level / 0.77 - 1.0).abs() < 0.01);
+    // Without an answer from a level on: known up to there.
+    let found = hunt.run(|level| if level > 0.77 { f64::NAN } else { 0.0 });
+    let crossing = found.first_crossing(1.0);
+    assert!(crossing.cut_short && (0.7..0.77).contains(&crossing.level), "{crossing:?}");
     for (limit, start, top) in
         [(0.0, 0.1, 1.0), (1.0, -0.1, 1.0), (1.0, 2.0, 1.0), (f64::NAN, 0.1, 1.0)]
     {

@@ -7,6 +7,8 @@
 //! L = f/√(φᵀ M φ)        shape of unit modal mass = φ/√(φᵀ M φ)        M = Σ L²/Σ ratio
 //! ```
 
+use std::collections::BTreeMap;
+
 use super::super::tree::{Sources, Spot};
 use super::cells::{Cell, Exported, tables};
 use super::{
@@ -381,6 +383,7 @@ fn shapes(
     }
     let modes = root_mass.len();
     let mut found: Vec<(String, Spot, [Vec<f64>; 2])> = Vec::new();
+    let mut places: BTreeMap<String, usize> = BTreeMap::new();
     for row in &table.rows {
         // Static cases have no modes.
         if kind.is_some_and(|kind| !row[kind].text.eq_ignore_ascii_case("mode")) {
@@ -389,7 +392,7 @@ fn shapes(
         let at_story = story.zip(label).map(|(s, l)| format!("{} {}", row[s].text, row[l].text));
         let names: Vec<&str> = [row[joint].text].into_iter().chain(at_story.as_deref()).collect();
         let Some(name) = wanted(options, &names) else { continue };
-        let place = found.iter().rposition(|(own, ..)| *own == name).unwrap_or(found.len());
+        let place = *places.entry(name.clone()).or_insert(found.len());
         if place == found.len() {
             found.push((name, row[joint].spot.clone(), [Vec::new(), Vec::new()]));
         }

@@ -8,6 +8,8 @@
 //!
 //! OpenSees has no units; shapes over unit modal mass need that of mass alone. z is upwards, in two dimensions y.
 
+use std::collections::BTreeMap;
+
 use super::super::tree::{Sources, Spot};
 use super::cells::{Exported, tables};
 use super::{
@@ -91,7 +93,7 @@ fn modes(
     let first =
         |section: &Section<'_>, column: usize| section.rows.first().map(|row| row[column].value);
     let dimensions = first(section("DOMAIN SIZE", 1)?, 0);
-    let axes = if dimensions == Some(2.0) { 1 } else { 2 };
+    let axes = if matches!(dimensions, Some(1.0 | 2.0)) { 1 } else { 2 };
     let eigen = section("EIGENVALUE ANALYSIS", 5)?;
     let mass = section("TOTAL FREE MASS OF THE STRUCTURE", axes)?;
     let factors = section("MODAL PARTICIPATION FACTORS", 1 + axes)?;
@@ -214,10 +216,11 @@ fn eigenvectors(
         columns.push(table.required(sources, &["uy"], "uy")?);
     }
     let mut found: Vec<AtNode> = Vec::new();
+    let mut places: BTreeMap<String, usize> = BTreeMap::new();
     for row in &table.rows {
         let Some(name) = wanted(options, &[row[node].text]) else { continue };
         let mode = table.mode(sources, &row[number])?;
-        let place = found.iter().position(|node| node.name == name).unwrap_or(found.len());
+        let place = *places.entry(name.clone()).or_insert(found.len());
         if place == found.len() {
             found.push(AtNode {
                 name,

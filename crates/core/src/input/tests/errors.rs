@@ -496,8 +496,8 @@ fn stops_that_cannot_be() {
          of positive and negative, of which one may be missing, found 0.1"
     );
     assert_eq!(
-        stop(&format!("gap = \"0 m\"\n{stiff}")),
-        "m.toml:7:7: slider.stop.gap: expected a finite length > 0, found \"0 m\""
+        stop(&format!("gap = \"-1 mm\"\n{stiff}")),
+        "m.toml:7:7: slider.stop.gap: expected a finite length ≥ 0, found \"-1 mm\""
     );
     assert_eq!(
         stop(&format!("{gap}stiffness = \"0 N/m\"\n")),

@@ -215,6 +215,46 @@ fn modes_keep_what_they_do_along_y() {
     }
 }
 
+/// Modes that move along y alone need nothing along x, in a table and in the model file; an effective mass is then
+/// enough, for its sign is that of nothing else.
+#[test]
+fn modes_along_y_alone() {
+    let header = "period_s,damping_ratio,";
+    for (columns, row) in [
+        ("participation_y,roof_y", "-300,0.002"),
+        ("effective_mass_y_kg,roof_y", "90000,0.002"),
+        ("effective_mass_ratio_y,roof_y", "0.9,0.002"),
+        ("effective_mass_ratio_y", "0.9"),
+        ("effective_mass_ratio,effective_mass_ratio_y", "0,0.9"),
+    ] {
+        let found = structure("", &format!("{header}{columns}\n0.5,0.02,{row}\n")).unwrap();
+        let [mode] = found.in_plane.as_slice() else { panic!("{columns}") };
+        let l = if row.starts_with('-') { -300.0 } else { 300.0 };
+        assert_eq!(mode.participation, [0.0, l], "{columns}");
+        assert_eq!((found.modes.len(), found.missing_mass_kg()), (0, 1e5), "{columns}");
+    }
+    // One along each axis, by effective masses.
+    let both = "effective_mass_ratio,effective_mass_ratio_y\n0.8,0.02,0.9,0\n0.5,0.02,0,0.8\n";
+    let found = structure("", &format!("{header}{both}")).unwrap();
+    let all: Vec<[f64; 2]> = found.in_plane.iter().map(|mode| mode.participation).collect();
+    assert_eq!(all, [[300.0, 0.0], [0.0, 80_000.0_f64.sqrt()]]);
+    // None that moves.
+    let error = structure("", &format!("{header}participation_y\n0.5,0.02,0\n")).unwrap_err();
+    assert!(error.contains("expected a mode with an effective mass or a participation"), "{error}");
+}
+
+/// Effective masses of a mode that moves along both axes do not tell whether it does so to one side or to the other.
+#[test]
+fn effective_masses_along_both_axes_do_not_tell_signs() {
+    let table =
+        "period_s,damping_ratio,effective_mass_ratio_x,effective_mass_ratio_y\n0.5,0.02,0.5,0.4\n";
+    let text = format!("{BLOCK}[structure]\nmass = \"100 t\"\nmodes = \"modes.csv\"\n{PAIR}");
+    let error = parse("m.toml", &text, &[Override::modes("modes.csv", table)]).unwrap_err();
+    let found = "found an effective mass of mode 1, which does not tell the sign of its participations along x \
+                 and y";
+    assert!(error.to_string().ends_with(found), "{error}");
+}
+
 /// What is wrong along y is said with its place.
 #[test]
 fn modes_wrong_along_y() {

@@ -119,7 +119,7 @@ fn what_is_not_given_has_its_default() {
     assert_eq!(
         analysis.required_motion().unwrap_err().to_string(),
         "m.toml:1:1: motion: expected a table [motion] with one of the keys record, sine, sweep, \
-         pulse, found nothing"
+         pulse (or a record beside the model: --motion FILE, --records PATTERN), found nothing"
     );
 }
 

@@ -103,3 +103,23 @@ pub fn motion(case: &Value) -> GroundMotion {
     let (x, y, vertical) = (lists.next().expect("x"), lists.next().expect("y"), lists.next());
     GroundMotion::new(t, x, vertical).and_then(|motion| motion.with_y(y)).expect("a motion")
 }
+
+/// Both components of Taft at 0.01 s, scaled to a peak of the larger in g, up to a sample.
+pub fn taft(peak_g: f64, samples: usize) -> GroundMotion {
+    let component = |text: &str| {
+        let value = |line: &str| 9.80665 * line.trim().parse::<f64>().expect("a number");
+        let values = text.lines().map(value).collect();
+        GroundMotion::evenly_spaced(0.01, values, None).expect("a component")
+    };
+    let [x, y] = [
+        include_str!("../../../../../examples/records/taft-021.txt"),
+        include_str!("../../../../../examples/records/taft-111.txt"),
+    ]
+    .map(component);
+    let (pair, _) = x.with_along_y(&y).expect("a pair");
+    let pair = pair.scaled_to_peak(9.80665 * peak_g).expect("a pair");
+    let part = |list: &[f64]| list[..samples].to_vec();
+    GroundMotion::evenly_spaced(0.01, part(pair.horizontal_m_per_s2()), None)
+        .and_then(|x| x.with_y(part(pair.horizontal_y_m_per_s2().expect("y"))))
+        .expect("a pair")
+}

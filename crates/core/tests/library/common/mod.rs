@@ -5,6 +5,7 @@
 
 pub mod agree;
 pub mod bernstein;
+pub mod by_modes;
 pub mod cases;
 pub mod compare;
 pub mod dd;
@@ -15,6 +16,7 @@ pub mod nasty;
 pub mod plain;
 pub mod random;
 pub mod random_devices;
+pub mod random_in_plane;
 pub mod sensible;
 pub mod sketch;
 pub mod system;

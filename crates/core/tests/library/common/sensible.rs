@@ -71,6 +71,42 @@ pub fn system(seed: u64) -> Sketch {
     x
 }
 
+/// The system of a seed with contents and a vertical motion that takes most of the weight or more: coefficients from a
+/// short list, so that much lets go together, items that weigh nothing, pendulums.
+pub fn lifted(seed: u64) -> Sketch {
+    let random = &mut Random::new(11_000_027 + seed);
+    let mut x = Sketch::shaken(random);
+    if random.chance(0.6) {
+        for mu in [&mut x.static_friction, &mut x.kinetic_friction].into_iter().flatten() {
+            *mu = round(*mu, 2);
+        }
+    }
+    if random.chance(0.3) {
+        x.equip(random);
+    }
+    if random.chance(0.6) {
+        x.static_friction = x.kinetic_friction;
+    }
+    if random.chance(0.5) && x.series.is_none() {
+        x.radius_m = Some(random.logarithmic(0.2, 4.0));
+    }
+    let own = x.kinetic_friction[0];
+    for _ in 0..random.integer(1, 3) {
+        let kinetic_friction = match random.integer(0, 3) {
+            0 => own,
+            1 => random.of(&[0.05, 0.1, 0.2]),
+            _ => random.written(0.03, 0.4),
+        };
+        let static_friction = kinetic_friction * random.of(&[1.0, 1.0, 1.0, 1.25]);
+        let mass_kg = x.block * random.of(&[1e-14, 0.01, 0.1, 0.3, 1.0]);
+        let floor = random.integer(0, x.masses.len() as i64) as usize;
+        x.contents.push(Contents { floor, mass_kg, static_friction, kinetic_friction });
+    }
+    let up = x.gravity * random.of(&[0.3, 0.7, 0.95, 1.2, 2.0]);
+    x.lift(random, up);
+    x
+}
+
 /// The seeds that `SLIPSTICK_SEEDS=0..5000` asks for, else others.
 #[allow(
     clippy::disallowed_methods,

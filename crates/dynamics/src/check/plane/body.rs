@@ -99,35 +99,30 @@ impl Body {
         [cross(u, rate), dot(u, rate)]
     }
 
-    /// How long a slip lasts under a push that does, `|push| < f`, and its last direction; the time is a bound where
-    /// the way is longer than asked for.
-    pub(super) fn way_to_rest(
+    /// How long a slip lasts under a push that does, `|push| < f`; a bound where the way is longer than asked for.
+    pub(super) fn time_to_rest(
         &self,
         w: Pair,
         push: Pair,
         slowing: f64,
         longest_m: f64,
-    ) -> Option<(f64, Option<Pair>)> {
+    ) -> Option<f64> {
         let (r, p) = (norm(w), norm(push));
         if !(p < slowing) {
             return None;
         }
         let bound_s = larger_eigenvalue(&self.rows) * r / (slowing - p);
         if r * bound_s > 1e3 * longest_m {
-            return Some((bound_s, None));
+            return Some(bound_s);
         }
         // Heun's method of third order.
-        let scale = self.most_compliant() * (slowing + p);
-        let step = STEP / scale;
+        let step = STEP / (self.most_compliant() * (slowing + p));
         let (mut angle, mut left, mut time_s) = (libm::atan2(w[1], w[0]), 1.0_f64, 0.0);
         for _ in 0..MOST_STEPS {
-            let a = self.rates(angle, push, slowing);
-            if left < FOLLOWED
-                && let Some(found) = self.end_of_turn((angle, a[0]), push, slowing, scale)
-            {
-                angle = found;
+            if left < FOLLOWED {
                 break;
             }
+            let a = self.rates(angle, push, slowing);
             let b = self.rates(angle + step / 3.0 * a[0], push, slowing);
             let c = self.rates(angle + 2.0 * step / 3.0 * b[0], push, slowing);
             let next = left * libm::exp(0.25 * step * (a[1] + 3.0 * c[1]));
@@ -137,32 +132,38 @@ impl Body {
             angle += 0.25 * step * (a[0] + 3.0 * c[0]);
             left = next.max(f64::MIN_POSITIVE);
         }
-        let last = [libm::cos(angle), libm::sin(angle)];
-        Some((r * time_s, Some(last)))
+        Some(r * time_s)
     }
 
-    /// The angle at which a slip turns no more, by Newton's method where it hardly does, if it is drawn there.
-    fn end_of_turn(
-        &self,
-        (mut angle, turn): (f64, f64),
-        push: Pair,
-        slowing: f64,
-        scale: f64,
-    ) -> Option<f64> {
-        if !(turn.abs() < 1e-3 * scale) {
-            return None;
+    /// The direction at which a slip turns no more under a push that lasts: rates depend on the direction alone, so it
+    /// turns one way until there is none, however slow it is by then.
+    pub(super) fn end_of_turn(&self, from: Pair, push: Pair, slowing: f64) -> Pair {
+        let start = libm::atan2(from[1], from[0]);
+        let rate = |angle: f64| self.rates(angle, push, slowing)[0];
+        let first = rate(start);
+        if first == 0.0 {
+            return from;
         }
-        for _ in 0..6 {
-            let u = [libm::cos(angle), libm::sin(angle)];
-            let across = [-u[1], u[0]];
-            let rate = self.moved([push[0] - slowing * u[0], push[1] - slowing * u[1]]);
-            let slope = cross(across, rate) - slowing * cross(u, self.moved(across));
-            if !(slope < 0.0) {
-                return None;
+        let step = STEP.copysign(first);
+        let (mut before, mut after) = (start, start + step);
+        while rate(after) * first > 0.0 {
+            if (after - start).abs() > 2.0 * core::f64::consts::PI {
+                return from;
             }
-            angle -= cross(u, rate) / slope;
+            (before, after) = (after, after + step);
         }
-        Some(angle)
+        // By halves: a chord may end beside the side at which it turns least.
+        loop {
+            let middle = 0.5 * (before + after);
+            if middle == before || middle == after {
+                return [libm::cos(after), libm::sin(after)];
+            }
+            if rate(middle) * first > 0.0 {
+                before = middle;
+            } else {
+                after = middle;
+            }
+        }
     }
 }
 

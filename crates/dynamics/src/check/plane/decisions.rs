@@ -3,7 +3,7 @@
 use super::super::collocation::POINTS;
 use super::super::ground::nearest;
 use super::super::structure::larger;
-use super::frame::{Loads, Pair, between, dot, norm, times, unit};
+use super::frame::{Loads, Pair, between, dot, norm, unit};
 use super::judge::{EventDirection, Minima, PlaneJudge, REST};
 use super::step::{FINE, State, Step, Stretch, sine};
 use crate::response::Mode;
@@ -78,6 +78,9 @@ impl<'a> PlaneJudge<'a> {
             let off = frame.block_kg * (p - f);
             self.figures.excess = larger(self.figures.excess, off);
         }
+        if self.axes.on_line {
+            return;
+        }
         let Some(from) = self.last_heading(k) else { return };
         let Some(to) = self.last_direction(from, push, f) else { return };
         if !frame.body.is_one() {
@@ -104,8 +107,7 @@ impl<'a> PlaneJudge<'a> {
         if body.is_one() || norm(push) >= slowing {
             return body.departure(push, slowing);
         }
-        // Of a speed that is of no account.
-        body.way_to_rest(times(from, 1e-200), push, slowing, 1.0)?.1
+        Some(body.end_of_turn(from, push, slowing))
     }
 
     /// The last direction of sliding before a stop at a knot.
@@ -118,7 +120,7 @@ impl<'a> PlaneJudge<'a> {
     /// Directions of sliding that pass between two knots of one time.
     pub(super) fn turn_between(&mut self, k: usize) {
         let slips = |k: usize| self.mode(k) != Mode::Stick;
-        if !(slips(k) && slips(k + 1)) {
+        if self.axes.on_line || !(slips(k) && slips(k + 1)) {
             return;
         }
         let [from, to] = [k, k + 1].map(|k| self.state(k));

@@ -40,9 +40,11 @@ impl<'a> PlaneJudge<'a> {
                 width_m: widths[axis],
                 ..root
             };
+            c.along(["x.", "y."][axis]);
             of_directions(c, model, &plane.axes[axis], &own, rounding);
             c.same(has_no_axis(&plane.axes[axis]));
         }
+        c.along("");
         self.of_least_speed(c, rounding);
         self.of_turns(c, peak_m.max(near_m), rounding);
     }
@@ -50,6 +52,7 @@ impl<'a> PlaneJudge<'a> {
     /// The printed time of the peak is one at which `|s|` has risen to it, and its direction that of `s` then.
     fn of_peak_time(&self, c: &mut Comparison, (peak_m, near_m): (f64, f64)) {
         let (h, d) = (self.h, &self.response.demands);
+        c.of("peak_sliding_displacement_time_s");
         let at_s = d.peak_sliding_displacement_time_s;
         let s = self.axes.at_peak.unwrap_or([f64::NAN; 2]);
         c.number(norm(s), peak_m, near_m, peak_m);
@@ -69,6 +72,7 @@ impl<'a> PlaneJudge<'a> {
     /// The least local minimum of the sliding speed; one below rounding may count or not.
     fn of_least_speed(&self, c: &mut Comparison, rounding: &Rounding) {
         let printed = self.axes.printed.least_sliding_speed_m_per_s;
+        c.of("least_sliding_speed_m_per_s");
         let near = rounding.velocity_m_per_s;
         let fastest = self.axes.peaks.largest[0][VELOCITY];
         match (printed, self.axes.least_speed) {
@@ -83,6 +87,7 @@ impl<'a> PlaneJudge<'a> {
     /// Directions and places of the events.
     fn of_turns(&self, c: &mut Comparison, peak_m: f64, rounding: &Rounding) {
         let printed = &self.axes.printed.events;
+        c.of("events");
         c.same(printed.len() == self.response.events.len());
         c.same(printed.len() == self.axes.event_directions.len());
         for (printed, own) in printed.iter().zip(&self.axes.event_directions) {

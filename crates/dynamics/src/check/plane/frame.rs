@@ -274,6 +274,25 @@ impl<'a> PlaneFrame<'a> {
         Forces { base, spring, damper, push }
     }
 
+    /// The largest acceleration that the terms of `K q + C q̇` would give by their sizes, to a floor each and to the block
+    /// together: what of an acceleration is rounding is a part of it, and not of the acceleration, where a soft and a
+    /// stiff storey meet.
+    pub(super) fn largest_terms(&self, x: &[f64], v: &[f64]) -> f64 {
+        let width = self.masses_kg.len();
+        let sizes = |rows: &[f64], of: &[f64]| -> f64 {
+            rows.iter().zip(&of[2..]).map(|(k, q)| (k * q).abs()).sum()
+        };
+        let (mut most, mut of_block) = (0.0_f64, 0.0);
+        for (i, mass_kg) in self.masses_kg.iter().enumerate() {
+            let [elastic, viscous] =
+                [&self.stiffness, &self.damping].map(|rows| &rows[i * width..][..width]);
+            let terms = sizes(elastic, x) + sizes(viscous, v);
+            most = most.max(terms / mass_kg);
+            of_block += terms;
+        }
+        most.max(of_block * self.body.most_compliant() / self.block_kg)
+    }
+
     /// `v̇ᵀ C v̇`-like form of rows: `Σ z_i rows_ij z_j`.
     fn form(rows: &[f64], z: &[f64]) -> f64 {
         let products = rows.chunks_exact(z.len().max(1)).zip(z);

@@ -277,7 +277,7 @@ impl<'a> PlaneJudge<'a> {
         let to_rest = if body.is_one() {
             time_to_rest(w, push, f)
         } else {
-            body.way_to_rest(w, push, f, shortest_m).map(|(rest_s, _)| rest_s)
+            body.time_to_rest(w, push, f, shortest_m)
         };
         let rest_s = match to_rest {
             Some(rest_s) if r * rest_s < shortest_m => Some(rest_s),
@@ -310,7 +310,9 @@ impl<'a> PlaneJudge<'a> {
         let tracked = self.tracked();
         path.state.lose_speed(self.frame());
         let acting = self.acting(&path.state, loads);
-        self.axes.peaks.turn(&tracked, &acting, None, false);
+        if !self.axes.on_line {
+            self.axes.peaks.turn(&tracked, &acting, None, false);
+        }
         let holds = self.holds_only(&path.state, loads);
         self.feed_speed(at_s, 0.0, |_| holds);
     }
@@ -382,7 +384,8 @@ impl<'a> PlaneJudge<'a> {
 
     /// Whether a step is near rest in a slip that was straight when it came there.
     fn is_straight_near_rest(&mut self, step: &Step, quickest: f64) -> bool {
-        if !(step.slips && quickest < NEAR_REST * self.dips[0].peak()) {
+        let is_near = step.slips && quickest < NEAR_REST * self.dips[0].peak();
+        if self.axes.on_line || !is_near {
             self.axes.near_rest = None;
             return false;
         }

@@ -62,6 +62,8 @@ pub(super) struct Plane<'a> {
     pub(super) minima: Minima,
     /// Least local minimum of the sliding speed.
     pub(super) least_speed: Option<f64>,
+    /// Whether all moves on one line: friction is along it, and no rounding turns it.
+    pub(super) on_line: bool,
     /// Near rest, whether the slip was straight when it came there.
     pub(super) near_rest: Option<bool>,
     /// The last direction of sliding, and the speed that was left where the last interval ended.
@@ -95,6 +97,7 @@ impl<'a> PlaneJudge<'a> {
             event_directions: Vec::new(),
             minima: Minima::default(),
             least_speed: None,
+            on_line: false,
             near_rest: None,
             heading: None,
             arrived: 0.0,
@@ -372,6 +375,11 @@ impl Directions for PlaneJudge<'_> {
         let plane = &mut self.axes;
         (plane.minima, plane.near_rest) = (Minima::default(), None);
         (plane.heading, plane.arrived) = (None, 0.0);
+    }
+
+    /// The motion is found over the table, whose acceleration a block without friction does not have.
+    fn carried_n(&self) -> f64 {
+        self.frame().total_kg * self.largest.1
     }
 
     fn compare_demands(&self, c: &mut Comparison, rounding: &Rounding) {

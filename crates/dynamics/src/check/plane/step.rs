@@ -267,11 +267,13 @@ impl Stepper<'_> {
         let (rule, frame, h) = (self.rule, self.frame, stretch.step_s);
         let d = frame.degrees();
         let mut floors = vec![0.0; d - 2];
-        let mut state = State { x: vec![0.0; d], v: vec![0.0; d] };
+        let mut state = from.clone();
         let mut last = f64::INFINITY;
         let mut pulls = vec![0.0; NODES * (d - 2)];
         for pass in 0..MOST_PASSES {
             let mut system = Newton::default();
+            // An acceleration is known to the rounding of the forces that it is made of.
+            let terms = frame.largest_terms(&state.x, &state.v);
             let (mut change, mut size) = (0.0_f64, 0.0_f64);
             for i in 0..NODES {
                 node(rule, h, from, rates, i, &mut state);
@@ -328,7 +330,7 @@ impl Stepper<'_> {
             // The next pass would change as much less as this one has.
             let next = if pass > 0 { change * (change / last) } else { change };
             let stalled = pass >= 6 && change >= 0.5 * last && change <= 1e-12 * size;
-            if change.min(next) <= 2.0 * f64::EPSILON * size || stalled {
+            if change.min(next) <= 2.0 * f64::EPSILON * size.max(terms) || stalled {
                 return true;
             }
             last = change;

@@ -8,6 +8,7 @@
 //!
 //! Friction is as it is of one mass, along the velocity and in its circle; the acceleration is along neither.
 
+use super::stop::STRAIGHT;
 use super::system::{cross, inner, norm};
 
 /// A matrix by its rows.
@@ -24,6 +25,9 @@ const TURN: f64 = 0.01;
 
 /// Part of the speed to which a way to rest is followed.
 const FOLLOWED: f64 = 1e-9;
+
+/// Parts of a full turn that are looked at for the last direction of a slip: it turns no more at four of them at most.
+const LOOKS: usize = 512;
 
 /// Most steps of that.
 const MOST_STEPS: usize = 20_000;
@@ -98,14 +102,42 @@ impl Mass {
         [cross(u, rate), inner(u, rate)]
     }
 
-    /// The time to rest and the last direction of a slip under a push that lasts, `|p| < f`: there is no closed form
-    /// as there is for one mass.
-    pub(super) fn way_to_rest(
-        &self,
-        w: [f64; 2],
-        push: [f64; 2],
-        friction: f64,
-    ) -> (f64, [f64; 2]) {
+    /// Whether a slip against a push is straight: it hardly turns, and what it turns grows.
+    pub(super) fn is_straight(&self, u: [f64; 2], push: [f64; 2], friction: f64) -> bool {
+        let across = [-u[1], u[0]];
+        let [of_push, of_u, of_across] = [push, u, across].map(|x| times(&self.inverse, x));
+        // Of u × C (p − f u), and its slope.
+        let turn = cross(u, of_push) - friction * cross(u, of_u);
+        let slope = cross(across, of_push) - friction * (cross(across, of_u) + cross(u, of_across));
+        slope > 0.0 && turn.abs() < STRAIGHT * (norm(of_push) + friction * cross(u, of_u).abs())
+    }
+
+    /// The direction to which a slip turns under a push that lasts, at the latest at rest: the first at which it turns no
+    /// more, `u × C (p − f u) = 0`, on the side to which it turns. However little it turns until its speed is below
+    /// all that counts, at rest it has turned to that.
+    pub(super) fn last_direction(&self, from: [f64; 2], push: [f64; 2], friction: f64) -> [f64; 2] {
+        let first = libm::atan2(from[1], from[0]);
+        let at = |turned: f64| [libm::cos(first + turned), libm::sin(first + turned)];
+        let turn = |turned: f64| self.turns(at(turned), push, friction)[0];
+        let side = turn(0.0);
+        if side == 0.0 {
+            return from;
+        }
+        let step = (core::f64::consts::TAU / LOOKS as f64).copysign(side);
+        let goes_on = |turned: f64| turn(turned) * side > 0.0;
+        let Some(beyond) = (1..LOOKS).find(|i| !goes_on(step * *i as f64)) else { return from };
+        let [mut low, mut high] = [beyond - 1, beyond].map(|i| step * i as f64);
+        loop {
+            let middle = 0.5 * (low + high);
+            if middle == low || middle == high {
+                return at(high);
+            }
+            if goes_on(middle) { low = middle } else { high = middle }
+        }
+    }
+
+    /// The time to rest of a slip under a push that lasts, `|p| < f`: there is no closed form as there is for one mass.
+    pub(super) fn time_to_rest(&self, w: [f64; 2], push: [f64; 2], friction: f64) -> f64 {
         let (mut angle, mut log, mut time) = (libm::atan2(w[1], w[0]), 0.0_f64, 0.0_f64);
         let speed = norm(w);
         let at = |angle: f64| [libm::cos(angle), libm::sin(angle)];
@@ -128,10 +160,9 @@ impl Mass {
             log += step * mean(1);
             time += step * mean(2);
         }
-        let last = at(angle);
-        let [_, slowing] = self.turns(last, push, friction);
+        let [_, slowing] = self.turns(at(angle), push, friction);
         let left = if slowing < 0.0 { libm::exp(log) / -slowing } else { 0.0 };
-        (speed * (time + left), last)
+        speed * (time + left)
     }
 }
 

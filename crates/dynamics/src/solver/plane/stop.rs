@@ -15,7 +15,7 @@ const LOOKS: usize = 32;
 pub(super) const REST: f64 = 1e-14;
 
 /// Sine of the angle between `w` and `−p` below which a motion is straight.
-const STRAIGHT: f64 = 1e-6;
+pub(super) const STRAIGHT: f64 = 1e-6;
 
 /// How a slip goes on from an instant.
 pub(super) struct Instant {
@@ -65,7 +65,7 @@ impl Instant {
         let time_s = match &system.mass {
             None => (f * r + inner(self.push, state.w)) / ((f - p) * (f + p)),
             Some(_) if !(r * longest_s < MASSIVE_PATH_M) => return None,
-            Some(mass) => mass.way_to_rest(state.w, self.push, f).0,
+            Some(mass) => mass.time_to_rest(state.w, self.push, f),
         };
         if !(r * time_s < NO_PATH_M) {
             return None;
@@ -119,11 +119,9 @@ impl Instant {
         let to = match &system.mass {
             Some(mass) => {
                 let f = at_rest.friction;
-                let rate = system.moved([0, 1].map(|k| push[k] - f * from[k]));
-                let is_straight = cross(from, rate).abs() < STRAIGHT * norm(rate);
-                match is_straight {
+                match mass.is_straight(from, push, f) {
                     true => from,
-                    false if p < f => mass.way_to_rest(w, push, f).1,
+                    false if p < f => mass.last_direction(from, push, f),
                     false => system.departure(push, f),
                 }
             }

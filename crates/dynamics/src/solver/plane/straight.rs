@@ -1,150 +1,338 @@
-//! An analysis in two horizontal directions: by the solver in one where nothing moves along the other.
+//! An analysis in two horizontal directions: by the solver in one where all of it is along one line.
+//!
+//! Friction, springs and dampers of the slider know no direction. So a motion whose components are proportional is one
+//! along a line, where the frame is the same along x and y or the line is an axis: it is solved as such, and the answer
+//! turned.
 
+use super::speed::Least;
 use super::summary::{Part, demands};
-use super::system::{State, System, along_y, norm};
+use super::system::{State, System, along_y, cross, inner, norm};
 use super::{Plane, SLIP};
 use crate::error::SolveError;
-use crate::model::Model;
+use crate::model::{Model, OscillatorInPlane};
 use crate::motion::GroundMotion;
 use crate::numerics::InstructionSet;
 use crate::progress::Pulse;
 use crate::response::{
-    Demands, EventInPlane, History, HistoryAlongY, InPlane, Method, PointFactorsInPlane, Response,
-    StoreyDemands,
+    Demands, EventInPlane, EventKind, History, HistoryAlongY, InPlane, Method, Mode,
+    PointFactorsInPlane, Response, StoreyDemands,
 };
 use crate::solver::course::Course;
-use crate::solver::ground::{Ground, contact_loss_s};
+use crate::solver::ground::{Ground, Stretch, contact_loss_s};
 use crate::solver::slider::SliderState;
 use crate::solver::summary;
 use crate::solver::walk::Walk;
 
-/// Along which axis all of a motion and of the initial state is, if it is along one. The modes of a structure may
-/// move along both axes whatever the table does.
-pub(in crate::solver) fn only_axis(model: &Model, motion: &GroundMotion) -> Option<usize> {
-    if model.structure().is_some() {
-        return None;
-    }
-    let turned = along_y(model);
-    let stands = |model: &Model, table: &[f64]| {
-        let initial = model.initial();
-        let storeys = [&initial.storey_displacement_m, &initial.storey_velocity_m_per_s];
-        initial.sliding_displacement_m == 0.0
-            && initial.sliding_velocity_m_per_s == 0.0
-            && storeys.into_iter().flatten().flatten().chain(table).all(|x| *x == 0.0)
-    };
-    let y = motion.horizontal_y_m_per_s2().unwrap_or_default();
-    if stands(&turned, y) {
-        Some(0)
-    } else if stands(model, motion.horizontal_m_per_s2()) {
-        Some(1)
-    } else {
-        None
-    }
-}
+/// Part of the largest of some vectors by which one may be off the line of all and be on it: rounding.
+const OFF: f64 = 8.0 * f64::EPSILON;
 
-/// Model and motion along one axis as such of one direction.
-pub(in crate::solver) fn along(
+/// The direction of all of a motion and of the initial state, if they have one, and the model along it as one of one
+/// direction, if that is what it is.
+pub(in crate::solver) fn on_line(
     model: &Model,
     motion: &GroundMotion,
-    axis: usize,
-) -> (Model, GroundMotion) {
-    if axis == 0 { (model.clone(), motion.along_x()) } else { (along_y(model), motion.along_y()) }
+) -> Option<([f64; 2], Model)> {
+    let turned = along_y(model);
+    let of = |axis: usize| -> [Vec<f64>; 5] {
+        let model = [model, &turned][axis];
+        let initial = model.initial();
+        let table = match axis {
+            0 => motion.horizontal_m_per_s2().to_vec(),
+            _ => motion.horizontal_y_m_per_s2().unwrap_or_default().to_vec(),
+        };
+        let storeys = || match model.structure() {
+            Some(_) => [Vec::new(), Vec::new()],
+            None => {
+                [model.initial_storey_displacement_m(), model.initial_storey_velocity_m_per_s()]
+            }
+        };
+        let [q, v] = storeys();
+        [table, vec![initial.sliding_displacement_m], vec![initial.sliding_velocity_m_per_s], q, v]
+    };
+    let [x, y] = [of(0), of(1)];
+    let is_still = |axis: &[Vec<f64>; 5]| axis.iter().flatten().all(|value| *value == 0.0);
+    let direction = match [is_still(&x), is_still(&y)] {
+        [_, true] => [1.0, 0.0],
+        [true, _] => [0.0, 1.0],
+        _ => common_direction(&x, &y)?,
+    };
+    Some((direction, model.turned_to(direction)?))
 }
 
-/// A response in one direction as one in two.
-pub(in crate::solver) fn placed(mut response: Response, axis: usize) -> Response {
-    let demands = &mut response.demands;
-    let none = Demands {
-        storeys: vec![StoreyDemands::default(); demands.storeys.len()],
-        ..Demands::default()
+/// The direction of vectors of several kinds, if it is one: each kind is compared with its largest.
+fn common_direction(x: &[Vec<f64>; 5], y: &[Vec<f64>; 5]) -> Option<[f64; 2]> {
+    let largest = |i: usize| {
+        let vectors = x[i].iter().zip(&y[i]).map(|(x, y)| [*x, *y]);
+        vectors.fold([0.0; 2], |most, vector| if norm(vector) > norm(most) { vector } else { most })
     };
-    let sign = if demands.max_sliding_displacement_m >= -demands.min_sliding_displacement_m {
-        1.0
-    } else {
-        -1.0
+    let first = (0..5).map(largest).find(|vector| *vector != [0.0; 2])?;
+    let size = norm(first).copysign(if first[0] == 0.0 { first[1] } else { first[0] });
+    let along = first.map(|value| value / size);
+    let is_on_it = |i: usize| {
+        let most = OFF * norm(largest(i));
+        x[i].iter().zip(&y[i]).all(|(x, y)| cross(along, [*x, *y]).abs() <= most)
     };
-    let [x, y] = if axis == 0 { [sign, 0.0] } else { [0.0, sign] };
-    let events = response.events.iter().map(|event| {
-        let sign = event.mode.sign();
-        let direction = if axis == 0 { [sign, 0.0] } else { [0.0, sign] };
-        let sliding_displacement_y_m = if axis == 0 { 0.0 } else { event.sliding_displacement_m };
-        EventInPlane { direction, sliding_displacement_y_m }
-    });
-    let mut in_plane = InPlane {
-        axes: [demands.clone(), none],
-        peak_sliding_displacement_direction_rad: libm::atan2(y, x),
-        least_sliding_speed_m_per_s: None,
-        events: events.collect(),
-        history: None,
-    };
-    let mut moved = response.history.as_ref().map(moving_part);
-    let mut still = moved.as_ref().map(still_part);
-    if axis == 1 {
-        in_plane.axes.swap(0, 1);
-        demands.overturning_ratio = None;
-        (demands.max_sliding_displacement_m, demands.min_sliding_displacement_m) = (0.0, 0.0);
+    (0..5).all(is_on_it).then_some(along)
+}
+
+/// A response in one direction, with its history.
+pub(in crate::solver) struct OnLine<'a> {
+    pub(in crate::solver) direction: [f64; 2],
+    /// The model in two directions and along the line.
+    pub(in crate::solver) model: &'a Model,
+    pub(in crate::solver) line: &'a Model,
+    /// System and ground in two directions.
+    pub(in crate::solver) system: System,
+    pub(in crate::solver) ground: Ground<'a>,
+    pub(in crate::solver) table_y: &'a [f64],
+    pub(in crate::solver) instructions: InstructionSet,
+}
+
+impl OnLine<'_> {
+    /// The response as one in two directions, with its history where that is asked for.
+    pub(in crate::solver) fn turned(self, mut response: Response, with_history: bool) -> Response {
+        let [x, y] = self.direction;
+        let reverses = response.demands.reversal_count > 0;
+        response.events.retain(|event| event.kind != EventKind::Reversal);
+        let events = response.events.iter().map(|event| EventInPlane {
+            direction: [x, y].map(|part| part * event.mode.sign() + 0.0),
+            sliding_displacement_y_m: y * event.sliding_displacement_m + 0.0,
+        });
+        let own = &response.demands;
+        let sign = match own.max_sliding_displacement_m >= -own.min_sliding_displacement_m {
+            true => 1.0,
+            false => -1.0,
+        };
+        let mut in_plane = InPlane {
+            axes: [0, 1].map(|axis| self.along_axis(own, axis)),
+            peak_sliding_displacement_direction_rad: libm::atan2(sign * y, sign * x),
+            least_sliding_speed_m_per_s: None,
+            events: events.collect(),
+            history: None,
+        };
+        let mut demands = Demands {
+            max_sliding_displacement_m: in_plane.axes[0].max_sliding_displacement_m,
+            min_sliding_displacement_m: in_plane.axes[0].min_sliding_displacement_m,
+            residual_sliding_displacement_m: own.residual_sliding_displacement_m.abs(),
+            reversal_count: 0,
+            overturning_ratio: None,
+            ..own.clone()
+        };
         for event in &mut response.events {
-            event.sliding_displacement_m = 0.0;
+            event.sliding_displacement_m = x * event.sliding_displacement_m + 0.0;
+            event.mode = in_two_directions(event.mode);
         }
-        core::mem::swap(&mut moved, &mut still);
-    }
-    if let (Some(history), Some(x), Some(y)) = (&mut response.history, moved, still) {
-        put_along_x(history, x);
-        in_plane.history = Some(y);
-    }
-    // In two directions a slip is positive along its own velocity.
-    let along_itself = |mode: &mut crate::response::Mode| {
-        if mode.sign() != 0.0 {
-            *mode = SLIP;
+        if let Some(history) = response.history.take() {
+            if with_history {
+                let mut turned = history.clone();
+                in_plane.history = Some(self.turn_history(&mut turned));
+                response.history = Some(turned);
+            }
+            if reverses {
+                // A block that turns about has passed rest; what its friction was then asked for decided nothing.
+                in_plane.least_sliding_speed_m_per_s = Some(0.0);
+                demands.closest_stop = self.closest_stop(&history);
+            } else {
+                in_plane.least_sliding_speed_m_per_s = self.least_speed(&history);
+            }
         }
-    };
-    if axis == 1 {
-        response.events.iter_mut().for_each(|event| along_itself(&mut event.mode));
-        response.history.iter_mut().flat_map(|h| &mut h.mode).for_each(along_itself);
+        Response { demands, in_plane: Some(Box::new(in_plane)), ..response }
     }
-    Response { in_plane: Some(Box::new(in_plane)), ..response }
+
+    /// What the response asks along an axis.
+    fn along_axis(&self, d: &Demands, axis: usize) -> Demands {
+        let part = self.direction[axis];
+        let size = |value: f64| part.abs() * value;
+        let signed = |value: f64| part * value + 0.0;
+        let ends_m = [d.max_sliding_displacement_m, d.min_sliding_displacement_m].map(signed);
+        let width_m = match axis {
+            0 => self.model.block().width_m,
+            _ => self.model.along_y().width_m,
+        };
+        let of_line_m = self.line.block().width_m;
+        let over = |ratio: f64| Some(size(ratio) * (of_line_m? / width_m?));
+        let of_storey = |storey: &StoreyDemands| StoreyDemands {
+            peak_acceleration_m_per_s2: size(storey.peak_acceleration_m_per_s2),
+            peak_displacement_m: size(storey.peak_displacement_m),
+            peak_drift_m: size(storey.peak_drift_m),
+            peak_drift_ratio: storey.peak_drift_ratio.map(size),
+        };
+        Demands {
+            peak_sliding_displacement_m: size(d.peak_sliding_displacement_m),
+            max_sliding_displacement_m: ends_m[0].max(ends_m[1]),
+            min_sliding_displacement_m: ends_m[0].min(ends_m[1]),
+            residual_sliding_displacement_m: signed(d.residual_sliding_displacement_m),
+            peak_sliding_velocity_m_per_s: size(d.peak_sliding_velocity_m_per_s),
+            peak_block_acceleration_m_per_s2: size(d.peak_block_acceleration_m_per_s2),
+            storeys: d.storeys.iter().map(of_storey).collect(),
+            points: d.points.iter().map(of_storey).collect(),
+            peak_base_shear_n: size(d.peak_base_shear_n),
+            peak_friction_force_n: size(d.peak_friction_force_n),
+            peak_slider_force_n: size(d.peak_slider_force_n),
+            base_shear_coefficient: size(d.base_shear_coefficient),
+            friction_coefficient_used: size(d.friction_coefficient_used),
+            slider_force_coefficient: size(d.slider_force_coefficient),
+            overturning_ratio: d.overturning_ratio.and_then(over),
+            ..Demands::default()
+        }
+    }
+
+    /// What of the storeys of the line at a knot is along x and along y; of a structure by its modes what its oscillators
+    /// do, which have directions of their own, in the second list.
+    fn storeys(&self, of_line: &[f64]) -> [Vec<f64>; 2] {
+        let Some(structure) = self.model.structure() else {
+            return self.direction.map(|part| of_line.iter().map(|q| part * q + 0.0).collect());
+        };
+        let modes = structure.oscillators_in_plane();
+        let of_mode = |mode: &OscillatorInPlane| {
+            // Modes of one frequency and damping are one along the line.
+            let joined = self.line.structure().and_then(|line| {
+                line.modes.iter().position(|own| {
+                    own.frequency_rad_per_s == mode.frequency_rad_per_s
+                        && own.damping_ratio == mode.damping_ratio
+                })
+            });
+            joined.map_or(0.0, |i| inner(mode.direction, self.direction) * of_line[i] + 0.0)
+        };
+        [Vec::new(), modes.iter().map(of_mode).collect()]
+    }
+
+    /// Turns a history to the direction: what is along x, and the oscillators of modes, stay in it, and what is along y
+    /// is returned.
+    fn turn_history(&self, h: &mut History) -> HistoryAlongY {
+        h.mode.iter_mut().for_each(|mode| *mode = in_two_directions(*mode));
+        let [x, y] = self.direction;
+        let part = |list: &mut Vec<f64>| {
+            let along_y = list.iter().map(|value| y * value + 0.0).collect();
+            list.iter_mut().for_each(|value| *value = x * *value + 0.0);
+            along_y
+        };
+        let by_modes = self.model.structure().is_some();
+        let of_storeys = |list: &mut Vec<f64>, storeys: usize| {
+            let knots = list.chunks_exact(storeys.max(1)).map(|knot| self.storeys(knot));
+            let (along_x, along_y): (Vec<_>, Vec<_>) = knots.map(|[x, y]| (x, y)).unzip();
+            *list = if by_modes { along_y.concat() } else { along_x.concat() };
+            if by_modes { Vec::new() } else { along_y.concat() }
+        };
+        let storeys = h.storeys;
+        let turned = HistoryAlongY {
+            table_acceleration_m_per_s2: part(&mut h.table_acceleration_m_per_s2),
+            sliding_displacement_m: part(&mut h.sliding_displacement_m),
+            sliding_velocity_m_per_s: part(&mut h.sliding_velocity_m_per_s),
+            block_acceleration_m_per_s2: part(&mut h.block_acceleration_m_per_s2),
+            friction_force_n: part(&mut h.friction_force_n),
+            storey_displacement_m: of_storeys(&mut h.storey_displacement_m, storeys),
+            storey_velocity_m_per_s: of_storeys(&mut h.storey_velocity_m_per_s, storeys),
+            storey_acceleration_m_per_s2: of_storeys(&mut h.storey_acceleration_m_per_s2, storeys),
+            points: PointFactorsInPlane::of(self.model),
+        };
+        (h.storeys, h.points) = (self.model.storeys_in_plane(), None);
+        turned
+    }
+
+    /// The interval in which the motion goes on from a time, and the time in it.
+    fn place(&self, interval: &mut usize, time_s: f64) -> f64 {
+        let times_s = self.ground.times_s;
+        while *interval + 2 < times_s.len() && times_s[*interval + 1] <= time_s {
+            *interval += 1;
+        }
+        time_s - times_s[*interval]
+    }
+
+    /// The least margin of the decisions at stops.
+    fn closest_stop(&self, h: &History) -> Option<f64> {
+        let (mut interval, mut closest) = (0, None);
+        let stops =
+            (1..h.len()).filter(|&k| h.mode[k] == Mode::Stick && h.mode[k - 1] != Mode::Stick);
+        for k in stops {
+            let at_s = self.place(&mut interval, h.time_s[k]);
+            let normal_n = self.ground.stretch(interval, at_s, at_s).normal_at(at_s);
+            let push = (h.friction_force_n[k] / self.system.block_kg).abs();
+            let margin = self.system.hold.margin(push, normal_n.max(0.0));
+            closest = margin.into_iter().chain(closest).reduce(f64::min);
+        }
+        closest
+    }
+
+    /// The least local minimum of the sliding speed of a motion that does not pass rest: by its series from knot to
+    /// knot, where one may be within.
+    fn least_speed(self, h: &History) -> Option<f64> {
+        let Self { system, ground, .. } = &self;
+        let [x, y] = self.direction;
+        let state = |k: usize| {
+            let of = |list: &[f64]| {
+                let [own, across] = self.storeys(&list[k * h.storeys..][..h.storeys]);
+                system.amplitudes(&self.model.frame().masses_kg, [&own, &across])
+            };
+            let (s, w) = (h.sliding_displacement_m[k], h.sliding_velocity_m_per_s[k]);
+            State {
+                s: [x * s, y * s],
+                w: [x * w, y * w],
+                eta: of(&h.storey_displacement_m),
+                rate: of(&h.storey_velocity_m_per_s),
+            }
+        };
+        let gain = |k: usize| {
+            h.mode[k].sign() * (h.block_acceleration_m_per_s2[k] - h.table_acceleration_m_per_s2[k])
+        };
+        let most = |list: &[f64]| list.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let lists = [
+            &h.table_acceleration_m_per_s2,
+            &h.block_acceleration_m_per_s2,
+            &h.storey_acceleration_m_per_s2,
+        ];
+        let sharpest: f64 = lists.iter().map(|list| most(list)).sum();
+        let looks = (0..h.len().saturating_sub(1)).filter(|&k| {
+            let length_s = h.time_s[k + 1] - h.time_s[k];
+            // How far the acceleration may be off its chord.
+            let radians = system.rate_rad_per_s * length_s;
+            let hidden = 0.125 * radians * radians * sharpest;
+            let may_turn = || gain(k) - hidden < 0.0 && gain(k + 1) + hidden > 0.0;
+            length_s > 0.0 && h.mode[k] != Mode::Stick && may_turn()
+        });
+        let mut interval = 0;
+        let parts: Vec<(State, Stretch)> = looks
+            .map(|k| {
+                let from_s = self.place(&mut interval, h.time_s[k]);
+                let to_s = from_s + (h.time_s[k + 1] - h.time_s[k]);
+                (state(k), ground.stretch(interval, from_s, to_s))
+            })
+            .collect();
+        let mut least = least_at_knots(h, gain);
+        let Some((first, _)) = parts.first() else { return least };
+        let first = first.clone();
+        let Self { system, ground, table_y, instructions, .. } = self;
+        let mut plane = Plane::new((system, first), (ground, table_y), instructions, false);
+        for (state, stretch) in parts {
+            let Stretch { from_s, to_s, .. } = stretch;
+            plane.peak_speed = norm(state.w);
+            (plane.state, plane.least) = (state, Least::default());
+            let mut at_s = from_s;
+            while at_s < to_s {
+                let next_s = plane.slide(&stretch, at_s);
+                if next_s <= at_s || plane.state.w == [0.0; 2] {
+                    break;
+                }
+                at_s = next_s;
+            }
+            least = plane.least.speed.into_iter().chain(least).reduce(f64::min);
+        }
+        least
+    }
 }
 
-/// What of a history is along its direction.
-fn moving_part(history: &History) -> HistoryAlongY {
-    HistoryAlongY {
-        table_acceleration_m_per_s2: history.table_acceleration_m_per_s2.clone(),
-        sliding_displacement_m: history.sliding_displacement_m.clone(),
-        sliding_velocity_m_per_s: history.sliding_velocity_m_per_s.clone(),
-        block_acceleration_m_per_s2: history.block_acceleration_m_per_s2.clone(),
-        friction_force_n: history.friction_force_n.clone(),
-        storey_displacement_m: history.storey_displacement_m.clone(),
-        storey_velocity_m_per_s: history.storey_velocity_m_per_s.clone(),
-        storey_acceleration_m_per_s2: history.storey_acceleration_m_per_s2.clone(),
-        points: None,
-    }
+/// The least speed of a jump at which it has fallen and rises, by its slope at a knot.
+fn least_at_knots(h: &History, slope: impl Fn(usize) -> f64) -> Option<f64> {
+    let turns = (1..h.len()).filter(|&k| {
+        let slips = [k - 1, k].iter().all(|&k| h.mode[k] != Mode::Stick);
+        slips && h.time_s[k - 1] == h.time_s[k] && slope(k - 1) < 0.0 && slope(k) >= 0.0
+    });
+    turns.map(|k| h.sliding_velocity_m_per_s[k].abs()).reduce(f64::min)
 }
 
-/// The same of a direction in which nothing moves.
-fn still_part(moved: &HistoryAlongY) -> HistoryAlongY {
-    let none = |list: &Vec<f64>| vec![0.0; list.len()];
-    HistoryAlongY {
-        table_acceleration_m_per_s2: none(&moved.table_acceleration_m_per_s2),
-        sliding_displacement_m: none(&moved.sliding_displacement_m),
-        sliding_velocity_m_per_s: none(&moved.sliding_velocity_m_per_s),
-        block_acceleration_m_per_s2: none(&moved.block_acceleration_m_per_s2),
-        friction_force_n: none(&moved.friction_force_n),
-        storey_displacement_m: none(&moved.storey_displacement_m),
-        storey_velocity_m_per_s: none(&moved.storey_velocity_m_per_s),
-        storey_acceleration_m_per_s2: none(&moved.storey_acceleration_m_per_s2),
-        points: None,
-    }
-}
-
-fn put_along_x(history: &mut History, x: HistoryAlongY) {
-    history.table_acceleration_m_per_s2 = x.table_acceleration_m_per_s2;
-    history.sliding_displacement_m = x.sliding_displacement_m;
-    history.sliding_velocity_m_per_s = x.sliding_velocity_m_per_s;
-    history.block_acceleration_m_per_s2 = x.block_acceleration_m_per_s2;
-    history.friction_force_n = x.friction_force_n;
-    history.storey_displacement_m = x.storey_displacement_m;
-    history.storey_velocity_m_per_s = x.storey_velocity_m_per_s;
-    history.storey_acceleration_m_per_s2 = x.storey_acceleration_m_per_s2;
+/// A slip is positive along its own velocity.
+fn in_two_directions(mode: Mode) -> Mode {
+    if mode == Mode::Stick { mode } else { SLIP }
 }
 
 /// Solves a model under a motion that is along no axis.

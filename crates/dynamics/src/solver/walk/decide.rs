@@ -22,6 +22,10 @@ use crate::linear::polynomial::{Polynomial, curvature_bound, value};
 use crate::response::{EventKind, Mode};
 use crate::slider::{Direction, Memory};
 
+/// Factors on what is rounding, one after the other where none of the assignments holds: that a force is at its bound
+/// and that what it lets go of has no acceleration is the same to within rounding, and not the same number.
+const DOUBTS: [f64; 4] = [8.0, 64.0, 512.0, 4096.0];
+
 /// Modes of all interfaces, with what follows from them.
 struct Assignment {
     in_force: InForce,
@@ -65,7 +69,7 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
             let hold = self.phase.hold(&self.course, i);
             of_terms = of_terms * self.phase.block_kg() + ROUNDING * hold.largest_n(normal_n);
         }
-        of_terms + self.rounding_of_time(series) * distance[1].abs()
+        self.doubt * (of_terms + self.rounding_of_time(series) * distance[1].abs())
     }
 
     // ---- bounds ---------------------------------------------------------------------------------
@@ -318,14 +322,33 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
         }
         let held = self.in_force();
         let at = (stretch, at_s);
-        let first = self.assign(at, &held, reached);
+        let chosen = self.choose_from(at, &held, reached);
+        if chosen.holds {
+            return chosen;
+        }
+        let in_doubt = DOUBTS.into_iter().find_map(|doubt| {
+            self.doubt = doubt;
+            Some(self.choose_from(at, &held, reached)).filter(|next| next.holds)
+        });
+        self.doubt = 1.0;
+        in_doubt.unwrap_or(chosen)
+    }
+
+    /// The same from what is held at first.
+    fn choose_from(
+        &mut self,
+        at: (&Stretch, f64),
+        held: &InForce,
+        reached: &[Release],
+    ) -> Assignment {
+        let first = self.assign(at, held, reached);
         let is_slider_free =
             held.modes[0] == Mode::Stick && reached.iter().all(|release| release.interface > 0);
         if !is_slider_free {
             return if first.holds || reached.is_empty() {
                 first
             } else {
-                self.choose_anew(at, &held)
+                self.choose_from(at, held, &[])
             };
         }
         let demand = self.phase.asked(self.phase.series(), 0)[0];
@@ -346,11 +369,11 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
         for direction in [towards, towards.opposite()] {
             let slides: Vec<Release> =
                 [Release { interface: 0, direction }].iter().chain(reached).copied().collect();
-            let mut next = self.assign(at, &held, &slides);
+            let mut next = self.assign(at, held, &slides);
             if !next.holds {
                 let slides: Vec<Release> =
                     [Release { interface: 0, direction }].iter().chain(&with).copied().collect();
-                next = self.assign(at, &held, &slides);
+                next = self.assign(at, held, &slides);
             }
             let better = best.as_ref().is_none_or(|best| next.sticking > best.sticking);
             if next.holds && better && self.must_slide(at, &next, direction) {
@@ -359,8 +382,8 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
         }
         match best {
             Some(best) => best,
-            None if !reached.is_empty() => self.choose_anew(at, &held),
-            None => self.assign(at, &held, &[Release { interface: 0, direction: towards }]),
+            None if !reached.is_empty() => self.choose_from(at, held, &[]),
+            None => self.assign(at, held, &[Release { interface: 0, direction: towards }]),
         }
     }
 
@@ -375,12 +398,6 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
         self.stick(0);
         self.expand_at(at);
         self.leaving(0) == Some(direction)
-    }
-
-    /// The same with nothing that has reached its bound.
-    fn choose_anew(&mut self, (stretch, at_s): (&Stretch, f64), held: &InForce) -> Assignment {
-        self.put_in_force(held);
-        self.choose(stretch, at_s, &[])
     }
 
     /// The assignment in which these slide, the slider else sticks, and as many contents as can.
@@ -406,8 +423,9 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
             if let Mode::Slip(direction) = self.course.mode(i) {
                 let series = self.phase.series();
                 let acceleration = self.phase.acceleration(series, i).map(|c| direction.sign() * c);
-                let rounding = self.phase.rounding_m_per_s2(&self.course, series, i)
-                    + self.rounding_of_time(series) * acceleration[1].abs();
+                let rounding = self.doubt
+                    * (self.phase.rounding_m_per_s2(&self.course, series, i)
+                        + self.rounding_of_time(series) * acceleration[1].abs());
                 let order = leading(&acceleration, rounding);
                 holds &= order.is_some_and(|k| acceleration[k] > 0.0);
                 let order = 1 + order.unwrap_or(0);

@@ -1,17 +1,17 @@
 //! Rigid stops: impacts, bounces that come to rest, and the time at rest against them.
 
-use super::super::course::Near;
+use super::super::course::{Near, Sliding};
 use super::super::ground::Stretch;
 use super::super::phase::Straight;
 use super::Walk;
-use crate::linear::polynomial::{deflated, first_root, value};
+use crate::linear::polynomial::{Polynomial, deflated, first_root, value};
 use crate::response::{EventKind, Mode};
 use crate::slider::{Direction, Hold};
 
 /// Impacts slower than this are neither listed nor counted, in m/s.
 const SLOWEST_IMPACT_M_PER_S: f64 = 1e-3;
 
-/// Where a bounce is below the rounding of `s`: parts of the stop's distance.
+/// Where a bounce is below the rounding of `s`: parts of the stop's distance, or of the largest `s` at a stop without one.
 const LEAST_BOUNCE: f64 = 4.0 * f64::EPSILON;
 
 /// Longest remaining time of infinitely many bounces, as a part of the whole time: it is left out.
@@ -84,14 +84,19 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
     /// Where friction takes all of the push against a rigid stop, or no longer does.
     #[inline(never)]
     pub(super) fn first_lean(&mut self, part: f64) -> Option<f64> {
-        let (_, mut beyond) = self.phase.beyond_friction(&self.course)?;
+        let mut sides: Vec<Polynomial> =
+            self.phase.beyond_friction(&self.course).map(|(_, beyond)| beyond).collect();
         if core::mem::take(&mut self.leant) {
-            beyond[0] = 0.0;
+            let least = sides.iter().fold(f64::INFINITY, |least, p| least.min(p[0].abs()));
+            sides.iter_mut().filter(|p| p[0].abs() <= least).for_each(|p| p[0] = 0.0);
         }
-        let order = beyond.iter().position(|c| *c != 0.0)?;
-        let sign = beyond[order].signum();
-        let p = deflated(&beyond.map(|c| sign * c), order);
-        first_root(&p, part).filter(|at| *at > 0.0)
+        let root = |beyond: &Polynomial| {
+            let order = beyond.iter().position(|c| *c != 0.0)?;
+            let sign = beyond[order].signum();
+            let p = deflated(&beyond.map(|c| sign * c), order);
+            first_root(&p, part).filter(|at| *at > 0.0)
+        };
+        sides.iter().filter_map(root).reduce(f64::min)
     }
 
     /// The block strikes a rigid stop, moving in a direction: `ṡ⁺ = −e ṡ⁻`; what does not touch the
@@ -204,7 +209,9 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
         let rest_s = speed / q * (1.0 + (q / p).sqrt()) / (1.0 - r);
         let bounce = 0.5 * speed * speed / q;
         let end_s = self.ground.times_s[self.ground.times_s.len() - 1];
-        r < 1.0 && bounce < LEAST_BOUNCE * s.abs() && rest_s < LONGEST_REST * end_s
+        let Sliding { max_m, min_m, .. } = self.course.block.sliding;
+        let size_m = if s == 0.0 { max_m.max(-min_m) } else { s.abs() };
+        r < 1.0 && bounce < LEAST_BOUNCE * size_m && rest_s < LONGEST_REST * end_s
     }
 
     /// Acceleration of the block over the ground at an instant.

@@ -4,6 +4,7 @@ use slipstick::assessment::code::PropertyFactors;
 use slipstick::assessment::histories::ModelHistories;
 use slipstick::assessment::histories::alone::ALONE;
 use slipstick::assessment::lateral::{LEAST_TOTAL, LateralForce};
+use slipstick::notice::{Notice, NoticeKind};
 use slipstick::response::DemandColumn;
 
 use super::{HistoriesReport, SHOWN};
@@ -97,6 +98,37 @@ impl HistoriesReport<'_> {
         let heading =
             format!("Peak sliding displacement, both components at once and alone{friction}");
         Some((unit.label(&self.of_model(&heading, model)), rows))
+    }
+
+    /// Where the equivalent-lateral-force displacement of a model passes what its isolators can take, with the
+    /// bound by which it does so most.
+    pub(super) fn passed(&self, model: &ModelHistories) -> Option<Notice> {
+        let each = model.bounds.iter().zip(&model.lateral);
+        let passed = each.filter_map(|(bound, found)| {
+            let found = found.as_ref()?;
+            Some((bound, found.displacement_m, found.passes?))
+        });
+        let (bound, displacement_m, (what, reach_m)) =
+            passed.reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+        let unit = self.display.unit(Quantity::Length, displacement_m);
+        let of_model = match self.histories.models.len() {
+            1 => String::new(),
+            _ => format!("{}: ", model.name),
+        };
+        let friction = match model.bounds.len() {
+            1 => String::new(),
+            _ => format!(" with {} friction", bound.name),
+        };
+        let message = format!(
+            "{of_model}the displacement D_M = {} {} of the equivalent-lateral-force procedure{friction} passes the {what} \
+             of {} {}: the isolators cannot take what the spectrum asks for, and k_M, T_M and D_M beyond it are of \
+             isolators that could",
+            cell(unit.of(displacement_m)),
+            unit.symbol,
+            cell(unit.of(reach_m)),
+            unit.symbol
+        );
+        Some(Notice::new(NoticeKind::LateralBeyondTravel, message))
     }
 
     /// The equivalent-lateral-force displacement with each bound, beside that of the runs.
@@ -193,20 +225,22 @@ fn capacities(model: &ModelHistories) -> Vec<Capacity> {
     all
 }
 
-/// That the products stay within the code's limits on them, where none were given.
-pub(super) fn limits_not_reached(factors: PropertyFactors) -> Option<String> {
-    let [[lower, upper], [least, most]] = [factors.products(), PropertyFactors::CODE_LIMITS];
-    let within = factors.limits.is_none() && (lower > least || upper < most);
-    within.then(|| {
-        format!(
-            "The products of property modification factors, {} and {}, are within the limits of ASCE/SEI 7, \
-             section 17.2.8.4 (at most {}, at least {}), which are not applied: limits = {least}..{most} \
-             among the factors applies them.",
-            cell(lower),
-            cell(upper),
-            cell(least),
-            cell(most)
-        )
+/// Which of the factors that are run are milder than the code takes without qualification tests.
+pub(super) fn milder_than_code(factors: PropertyFactors) -> Option<Notice> {
+    let (run, [least, most]) = (factors.bounds(), PropertyFactors::CODE_LIMITS);
+    let lower =
+        (run.lower > least).then(|| format!("the least, {}, is above {least:.2}", cell(run.lower)));
+    let upper =
+        (run.upper < most).then(|| format!("the largest, {}, is below {most:.2}", cell(run.upper)));
+    let milder: Vec<String> = lower.into_iter().chain(upper).collect();
+    (!milder.is_empty()).then(|| {
+        let message = format!(
+            "The products of property modification factors are milder than those of ASCE/SEI 7, section 17.2.8.4, \
+             without qualification tests (at most {least:.2}, at least {most:.2}): {}. limits = {least}..{most} among \
+             the factors applies the code's.",
+            milder.join("; ")
+        );
+        Notice::new(NoticeKind::MildFactors, message)
     })
 }
 

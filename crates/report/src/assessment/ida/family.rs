@@ -5,10 +5,10 @@ use slipstick::assessment::ida::{IdaGroup, IdaRun, level_fractiles};
 use slipstick::motion::intensity::LevelMeasure;
 use slipstick::notice::Notice;
 
-use super::{BEYOND, IdaReport};
+use super::IdaReport;
 use crate::assessment::key::title;
 use crate::assessment::lines::{GROUPS, RECORD, clipped, line, panel, share_names, single};
-use crate::assessment::sheet::{Sheet, cell, failed};
+use crate::assessment::sheet::{Sheet, cell, counted_as, failed};
 use crate::display::DisplayUnits;
 use crate::figures::Drawn;
 use crate::json::Json;
@@ -100,7 +100,9 @@ impl Groups<'_> {
         let averaged = first.map(|report| report.averaged).filter(|averaged| averaged.designs > 1);
         let averaged = averaged.map_or_else(String::new, |averaged| format!("; each {averaged}"));
         let mut warnings: Vec<Notice> =
-            failed(&family.run.failures, runs as u64, BEYOND).into_iter().collect();
+            failed(&family.run.failures, runs as u64, &counted_as(&family.run.failures))
+                .into_iter()
+                .collect();
         for (label, report) in self.each() {
             let of_group = |warning: Notice| Notice {
                 message: format!("{} = {label}: {}", self.by, warning.message),
@@ -204,7 +206,7 @@ impl Groups<'_> {
         let x_end = edp.of(if limit.is_some() { 1.6 * largest } else { largest });
         let points = |report: &IdaReport<'_>| -> f64 {
             let all = report.curves.iter().flat_map(|c| c.levels.iter().zip(&c.demands));
-            let shown = all.filter(|(_, demand)| **demand <= 1.6 * largest);
+            let shown = all.filter(|(_, demand)| demand.value() <= 1.6 * largest);
             shown.map(|(level, _)| im.of(*level)).fold(0.0, f64::max)
         };
         let top = self.reports.iter().map(points).fold(0.0, f64::max);
@@ -213,7 +215,8 @@ impl Groups<'_> {
         for report in self.reports {
             for curve in report.curves {
                 let points = curve.levels.iter().zip(&curve.demands);
-                let points = points.map(|(level, demand)| [edp.of(*demand), im.of(*level)]);
+                let points = points.filter(|(_, demand)| !demand.value().is_nan());
+                let points = points.map(|(level, demand)| [edp.of(demand.value()), im.of(*level)]);
                 let points: Vec<_> = std::iter::once([0.0, 0.0]).chain(points).collect();
                 let label = if series.is_empty() { "record" } else { "" };
                 series.push(line(label, RECORD, clipped(&points, ends)));
