@@ -80,6 +80,7 @@ impl Recomputed<'_> {
 }
 
 /// What the rounding of the knots leaves undecided.
+#[derive(Default)]
 pub(super) struct Rounding {
     pub(super) instant_s: f64,
     pub(super) displacement_m: f64,

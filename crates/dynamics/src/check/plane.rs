@@ -58,7 +58,7 @@ pub(super) fn check(
     let (law, outputs, pulse) = (&law, &outputs, Pulse::new(go_on));
     let given = JudgeInput { model, motion, response, history: h, law, outputs, pulse };
     let mut judge = PlaneJudge::of_plane(given, (plane, along_y, table_y), &frame);
-    judge.axes.on_line = is_on_line(model, (motion.horizontal_m_per_s2(), table_y));
+    judge.axes.line = line_of(model, (motion.horizontal_m_per_s2(), table_y));
     judge.run(bound)?.map_or_else(unjudged, Ok)
 }
 
@@ -75,8 +75,9 @@ fn is_within(model: &Model) -> bool {
         && model.slope_m_per_s2() == 0.0
 }
 
-/// Whether all of a motion and of the start is on one line through rest, along which a model with this frame stays.
-fn is_on_line(model: &Model, table: (&[f64], &[f64])) -> bool {
+/// The direction of the line through rest that all of a motion and of the start is on, where a model with this frame
+/// stays on it.
+fn line_of(model: &Model, table: (&[f64], &[f64])) -> Option<Pair> {
     let (x, y) = (model.initial(), model.along_y());
     let (frame, [q, v]) = (
         model.frame(),
@@ -101,13 +102,14 @@ fn is_on_line(model: &Model, table: (&[f64], &[f64])) -> bool {
         let Some(along) = line.or(unit(most)) else { continue };
         line = Some(along);
         if pairs().any(|v| cross(along, v).abs() > 4.0 * f64::EPSILON * norm(most)) {
-            return false;
+            return None;
         }
     }
-    let is_axis = line.is_some_and(|[x, y]| x == 0.0 || y == 0.0);
+    let line = line.unwrap_or([1.0, 0.0]);
+    let is_axis = line.contains(&0.0);
     let is_alike = model.storeys() == 0
         || (frame.stiffnesses_n_per_m == y.stiffnesses_n_per_m && frame.damping == y.damping);
-    model.structure().is_none() && (is_axis || is_alike)
+    (model.structure().is_none() && (is_axis || is_alike)).then_some(line)
 }
 
 /// Whether friction by speed is exponential, and the same both ways.

@@ -18,14 +18,16 @@ mod summary;
 mod system;
 mod terms;
 mod turning;
+mod vector;
 
 use self::peaks::Peaks;
 use self::record::{Knot, Recorder};
 use self::series::{Kind, Series};
 use self::speed::Least;
 use self::stop::Instant;
-use self::system::{Loads, State, inner, norm};
+use self::system::{Loads, State};
 use self::terms::Scales;
+use self::vector::{inner, norm};
 use super::course::{self, Course};
 use super::ground::{Ground, Stretch};
 use super::phase::{Phase, Reached};

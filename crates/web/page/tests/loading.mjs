@@ -30,8 +30,7 @@ export function loading(test, on, site) {
         await given;
         await route.continue();
       });
-      await page.goto("about:blank");
-      await page.goto(site.url);
+      await page.reload();
       await page.waitForFunction(() => globalThis.slipstick?.updates > 0);
       assert.match(await page.locator(".results .certificate").innerText(), /^Loading\s+This picture was computed when the page was built/);
       assert.deepEqual(await headline(page), live, "its figures are those that are computed here");
@@ -63,8 +62,7 @@ export function loading(test, on, site) {
         await given;
         await route.continue();
       });
-      await page.goto("about:blank");
-      await page.goto(site.url);
+      await page.reload();
       await page.waitForFunction(() => globalThis.slipstick?.updates > 1);
       assert.match(await page.locator(".results .certificate").innerText(), /^Loading\s+Not yet checked/);
       assert.deepEqual(await page.evaluate(() => [...globalThis.slipstick.answer.s]), whole, "the bits of the whole module");
@@ -83,8 +81,7 @@ export function loading(test, on, site) {
   test("a whole module that does not come is said where it is needed, and asked for again", () =>
     on(async (page, { said }) => {
       await page.route(/slipstick\.wasm$/, (route) => route.abort());
-      await page.goto("about:blank");
-      await page.goto(site.url);
+      await page.reload();
       await page.waitForFunction(() => globalThis.slipstick?.updates > 1);
       const message = await page.evaluate(() => globalThis.slipstick.desk.helper.call("form", "ida", globalThis.slipstick.text, "si").catch((error) => error.message));
       assert.match(message, /expected the rest of the page/);

@@ -78,7 +78,7 @@ impl<'a> PlaneJudge<'a> {
             let off = frame.block_kg * (p - f);
             self.figures.excess = larger(self.figures.excess, off);
         }
-        if self.axes.on_line {
+        if self.axes.line.is_some() {
             return;
         }
         let Some(from) = self.last_heading(k) else { return };
@@ -120,7 +120,7 @@ impl<'a> PlaneJudge<'a> {
     /// Directions of sliding that pass between two knots of one time.
     pub(super) fn turn_between(&mut self, k: usize) {
         let slips = |k: usize| self.mode(k) != Mode::Stick;
-        if self.axes.on_line || !(slips(k) && slips(k + 1)) {
+        if self.axes.line.is_some() || !(slips(k) && slips(k + 1)) {
             return;
         }
         let [from, to] = [k, k + 1].map(|k| self.state(k));

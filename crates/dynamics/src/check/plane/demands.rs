@@ -41,6 +41,9 @@ impl<'a> PlaneJudge<'a> {
                 ..root
             };
             c.along(["x.", "y."][axis]);
+            // Across the line of a motion along an axis nothing is rounded.
+            let is_still = self.axes.line.is_some_and(|line| line[axis] == 0.0);
+            let rounding = if is_still { &Rounding::default() } else { rounding };
             of_directions(c, model, &plane.axes[axis], &own, rounding);
             c.same(has_no_axis(&plane.axes[axis]));
         }

@@ -310,7 +310,7 @@ impl<'a> PlaneJudge<'a> {
         let tracked = self.tracked();
         path.state.lose_speed(self.frame());
         let acting = self.acting(&path.state, loads);
-        if !self.axes.on_line {
+        if self.axes.line.is_none() {
             self.axes.peaks.turn(&tracked, &acting, None, false);
         }
         let holds = self.holds_only(&path.state, loads);
@@ -385,7 +385,7 @@ impl<'a> PlaneJudge<'a> {
     /// Whether a step is near rest in a slip that was straight when it came there.
     fn is_straight_near_rest(&mut self, step: &Step, quickest: f64) -> bool {
         let is_near = step.slips && quickest < NEAR_REST * self.dips[0].peak();
-        if self.axes.on_line || !is_near {
+        if self.axes.line.is_some() || !is_near {
             self.axes.near_rest = None;
             return false;
         }

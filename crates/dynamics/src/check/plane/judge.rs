@@ -62,8 +62,8 @@ pub(super) struct Plane<'a> {
     pub(super) minima: Minima,
     /// Least local minimum of the sliding speed.
     pub(super) least_speed: Option<f64>,
-    /// Whether all moves on one line: friction is along it, and no rounding turns it.
-    pub(super) on_line: bool,
+    /// The direction of the one line on which all moves, if it does: friction is along it, and no rounding turns it.
+    pub(super) line: Option<Pair>,
     /// Near rest, whether the slip was straight when it came there.
     pub(super) near_rest: Option<bool>,
     /// The last direction of sliding, and the speed that was left where the last interval ended.
@@ -97,7 +97,7 @@ impl<'a> PlaneJudge<'a> {
             event_directions: Vec::new(),
             minima: Minima::default(),
             least_speed: None,
-            on_line: false,
+            line: None,
             near_rest: None,
             heading: None,
             arrived: 0.0,

@@ -8,8 +8,7 @@
 //!
 //! Friction is as it is of one mass, along the velocity and in its circle; the acceleration is along neither.
 
-use super::stop::STRAIGHT;
-use super::system::{cross, inner, norm};
+use super::vector::{cross, inner, norm};
 
 /// A matrix by its rows.
 pub(super) type Matrix = [[f64; 2]; 2];
@@ -22,6 +21,9 @@ pub(super) fn times(matrix: &Matrix, x: [f64; 2]) -> [f64; 2] {
 
 /// Steps of a turn in which it is followed to rest, in radians.
 const TURN: f64 = 0.01;
+
+/// Sine of the angle between `w` and `−p` below which a motion is straight.
+pub(super) const STRAIGHT: f64 = 1e-6;
 
 /// Part of the speed to which a way to rest is followed.
 const FOLLOWED: f64 = 1e-9;

@@ -7,8 +7,9 @@
 //! The right sides are polynomials: nothing is singular at `w = 0`, and rest is `τ → ∞`.
 
 use super::series::{Kind, Series, product, square};
-use super::system::{Loads, State, System, norm};
+use super::system::{Loads, State, System};
 use super::terms::Scales;
+use super::vector::norm;
 use crate::linear::polynomial::{DEGREE, Polynomial, value};
 
 /// Radians of `(f + |p|)/2` that a series of the usual degree takes.

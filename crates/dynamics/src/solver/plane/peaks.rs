@@ -7,7 +7,8 @@
 use super::mass::times;
 use super::series::{Kind, Series, square};
 use super::stop::Arc;
-use super::system::{State, System, inner, norm};
+use super::system::{State, System};
+use super::vector::{inner, norm};
 use crate::linear::polynomial::{
     DEGREE, Polynomial, ZERO, curvature_bound, curvature_term, largest, value,
 };

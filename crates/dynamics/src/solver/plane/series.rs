@@ -1,7 +1,8 @@
 //! The motion by powers of the time: in stick, in slip, and in slip from rest.
 
-use super::system::{Loads, State, System, inner, norm};
+use super::system::{Loads, State, System};
 use super::terms::{LOW, NEGLIGIBLE, Scales, Sizes};
+use super::vector::{inner, norm};
 use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, deflated, first_root, value};
 use crate::numerics::InstructionSet;
 use crate::numerics::instructions::vectorize;

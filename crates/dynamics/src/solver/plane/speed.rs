@@ -2,7 +2,7 @@
 
 use super::peaks::bend;
 use super::series::{Kind, Series};
-use super::system::{inner, norm};
+use super::vector::{inner, norm};
 use crate::linear::polynomial::{DEGREE, ZERO, derivative, value};
 
 /// The least local minimum of `|w|` within a slip.

@@ -2,7 +2,8 @@
 
 use super::mass::{Mass, times};
 use super::series::{Along, Series, convolved};
-use super::system::{System, cross, inner, norm};
+use super::system::System;
+use super::vector::{cross, inner, norm};
 use crate::linear::polynomial::{DEGREE, Polynomial};
 
 impl Series {

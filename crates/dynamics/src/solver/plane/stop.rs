@@ -1,6 +1,8 @@
 //! Where a slip comes to rest, and what happens to the direction of friction there.
 
-use super::system::{Loads, State, System, cross, inner, norm};
+use super::mass::STRAIGHT;
+use super::system::{Loads, State, System};
+use super::vector::{cross, inner, norm};
 
 /// A path below which a slip has stopped, in m.
 const NO_PATH_M: f64 = 1e-22;
@@ -13,9 +15,6 @@ const LOOKS: usize = 32;
 
 /// Part of the peak of the speed in a slip below which a block rests.
 pub(super) const REST: f64 = 1e-14;
-
-/// Sine of the angle between `w` and `−p` below which a motion is straight.
-pub(super) const STRAIGHT: f64 = 1e-6;
 
 /// How a slip goes on from an instant.
 pub(super) struct Instant {

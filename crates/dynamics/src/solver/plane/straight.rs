@@ -6,7 +6,8 @@
 
 use super::speed::Least;
 use super::summary::{Part, demands};
-use super::system::{State, System, along_y, cross, inner, norm};
+use super::system::{State, System, along_y};
+use super::vector::{cross, inner, norm};
 use super::{Plane, SLIP};
 use crate::error::SolveError;
 use crate::model::{Model, OscillatorInPlane};

@@ -2,7 +2,7 @@
 
 use super::Plane;
 use super::peaks::Peak;
-use super::system::norm;
+use super::vector::norm;
 use crate::model::Model;
 use crate::response::{Demands, Event, EventKind};
 use crate::solver::course::Sliding;

@@ -1,6 +1,7 @@
 //! The equations of motion in two horizontal directions.
 
 use super::mass::{Mass, Matrix, times};
+use super::vector::norm;
 use crate::error::SolveError;
 use crate::linear;
 use crate::model::{Model, OscillatorInPlane, Structure};
@@ -391,22 +392,4 @@ impl Loads {
         let later = |[value, rate]: [f64; 2]| [value + rate * t, rate];
         Self { table: self.table.map(later), normal: later(self.normal) }
     }
-}
-
-/// Length of a vector.
-#[inline(always)]
-pub(super) fn norm([x, y]: [f64; 2]) -> f64 {
-    (x * x + y * y).sqrt()
-}
-
-/// Scalar product.
-#[inline(always)]
-pub(super) fn inner(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-/// `a × b`.
-#[inline(always)]
-pub(super) fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
 }

@@ -1,7 +1,8 @@
 //! Which terms of a series are rounding.
 
 use super::series::{Kind, Series};
-use super::system::{State, norm};
+use super::system::State;
+use super::vector::norm;
 use crate::linear::polynomial::Polynomial;
 
 /// A term of a series is left out where it is below this part of its scale.

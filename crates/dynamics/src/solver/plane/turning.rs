@@ -8,8 +8,9 @@
 //! no use here: `C w` is no product with it.
 
 use super::series::{Kind, Series, product};
-use super::system::{Loads, State, System, norm};
+use super::system::{Loads, State, System};
 use super::terms::Scales;
+use super::vector::norm;
 use crate::linear::polynomial::{DEGREE, ZERO};
 
 impl Series {
