@@ -19,8 +19,9 @@ Slipstick's own tasks
 
 Usage: cargo xtask TASK
 
-  ci                             formatting, lints, every test, documentation, wasm, examples,
+  ci [WORD...]                   formatting, lints, every test, documentation, wasm, examples,
                                  licences; last line: N passed, N failed, N skipped
+                                 (WORD: the steps with one of these words in their names)
   nightly                        the tests that take minutes, coverage of intervals, every fuzz
                                  target for ten minutes (installs cargo-fuzz)
   release-check                  page, binary and wheel built as a release has them, and tested
@@ -86,7 +87,7 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let outcome = match words.as_slice() {
-        ["ci"] => return ci::ci(),
+        ["ci", words @ ..] => return ci::ci(words),
         ["nightly"] => return ci::nightly(),
         ["release-check"] => return ci::release_check(),
         ["bench-build", options @ ..] => building::bench_build(options),

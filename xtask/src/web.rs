@@ -14,6 +14,9 @@ const WIDGET: &str = "crates/python/python/slipstick/page.js";
 
 const WASM: &str = "wasm32-unknown-unknown";
 
+/// The profile of WebAssembly for tests.
+const TESTED: &str = "tested";
+
 /// Packages of the page's modules: that of the first picture, and the whole one.
 const MODULES: [&str; 2] = ["slipstick-first", "slipstick-web"];
 
@@ -173,18 +176,19 @@ pub enum Build {
 }
 
 /// Builds all that is built for WebAssembly as tests are, once: the libraries, the page's modules, and the example
-/// that compares bits.
+/// that compares bits, whose module is returned.
 ///
 /// # Errors
-/// What does not build; that the target cannot be added.
-pub fn build_for_tests(golden: &str) -> Outcome {
+/// What does not build.
+pub fn build_for_tests(golden: &str) -> Result<PathBuf, String> {
     let packages = modules();
     let build = format!(
         "build --quiet --lib --example golden --package slipstick --package slipstick-report {packages} \
-         --target {WASM}"
+         --profile {TESTED} --target {WASM}"
     );
     // The example compares its own bits with these, and returns the first that differs.
-    shell::run(shell::cargo(&build).env("SLIPSTICK_GOLDEN", golden))
+    shell::run(shell::cargo(&build).env("SLIPSTICK_GOLDEN", golden))?;
+    Ok(shell::target_folder()?.join(WASM).join(TESTED).join("examples/golden.wasm"))
 }
 
 /// Puts the page together and returns its folder; the modules for tests are those that are there.
@@ -194,7 +198,7 @@ pub fn build(how: Build) -> Result<PathBuf, String> {
     }
     add_target()?;
     let profile = match how {
-        Build::Tested => "debug",
+        Build::Tested => TESTED,
         Build::Page => {
             let build = format!("build {} --profile page --target {WASM}", modules());
             shell::run(&mut shell::cargo(&build))?;
@@ -222,7 +226,10 @@ fn modules() -> String {
 }
 
 /// Adds the target for WebAssembly where it is missing.
-fn add_target() -> Outcome {
+///
+/// # Errors
+/// That it cannot be added.
+pub fn add_target() -> Outcome {
     let mut probe = shell::command("rustc");
     let installed = shell::output(probe.args(["--print", "target-libdir", "--target", WASM]))
         .is_ok_and(|folder| Path::new(folder.trim()).is_dir());

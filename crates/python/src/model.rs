@@ -404,7 +404,7 @@ impl Model {
     /// >>> import slipstick as ss
     /// >>> model = ss.Model({"block.mass": "1 t", "slider.static_friction": 0.1,
     /// ...                   "slider.kinetic_friction": 0.1})
-    /// >>> script = model.to_opensees(ss.Motion([0.0, 0.3, 0.0], dt=0.5, units="g"), "10 kN/mm")
+    /// >>> script = model.to_opensees(ss.Motion([0.0, 0.3, 0.0], dt=0.1, units="g"), "10 kN/mm")
     /// >>> "ElasticPP" in script
     /// True
     fn to_opensees(

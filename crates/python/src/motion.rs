@@ -58,9 +58,9 @@ use crate::values::{accelerations, factor_of, quantity, samples};
 /// Examples
 /// --------
 /// >>> import slipstick as ss
-/// >>> motion = ss.Motion([0.0, 0.2, -0.1, 0.0], dt=0.5, units="g")
-/// >>> motion.duration_s, len(motion)
-/// (1.5, 4)
+/// >>> motion = ss.Motion([0.0, 0.2, -0.1, 0.0], dt=0.1, units="g")
+/// >>> round(motion.duration_s, 3), len(motion)
+/// (0.3, 4)
 /// >>> round(motion.scaled(pga="0.3 g").pga_m_per_s2, 3)
 /// 2.942
 #[pyclass(module = "slipstick._core", frozen, from_py_object)]
@@ -307,7 +307,7 @@ impl Motion {
     /// Examples
     /// --------
     /// >>> import slipstick as ss
-    /// >>> pair = ss.Motion([0.0, 1.0, 0.0], y=[0.0, 0.5, 0.0], dt=0.5, units="m/s2")
+    /// >>> pair = ss.Motion([0.0, 1.0, 0.0], y=[0.0, 0.5, 0.0], dt=0.1, units="m/s2")
     /// >>> pair.rotated("90 deg").acceleration_y_m_per_s2.tolist()
     /// [0.0, 1.0, 0.0]
     #[pyo3(signature = (angle, *, scale_y = None))]
@@ -348,7 +348,7 @@ impl Motion {
     /// Examples
     /// --------
     /// >>> import slipstick as ss
-    /// >>> motion = ss.Motion([0.0, 1.0, 0.0], dt=0.5, units="m/s2")
+    /// >>> motion = ss.Motion([0.0, 1.0, 0.0], dt=0.1, units="m/s2")
     /// >>> found = motion.measures("Sa(1 s)")
     /// >>> found["pga_m_per_s2"], found["Sa(1 s)"] > 0.0
     /// (1.0, True)
@@ -380,7 +380,7 @@ impl Motion {
     /// Examples
     /// --------
     /// >>> import slipstick as ss
-    /// >>> motion = ss.Motion([0.0, 1.0, 0.0], dt=0.5, units="m/s2")
+    /// >>> motion = ss.Motion([0.0, 1.0, 0.0], dt=0.1, units="m/s2")
     /// >>> motion.spectrum([0.0, "1 s"])["sa_m_per_s2"].tolist()[0]
     /// 1.0
     #[pyo3(signature = (periods = None, *, damping = None))]
@@ -430,7 +430,7 @@ impl Motion {
     /// Examples
     /// --------
     /// >>> import slipstick as ss
-    /// >>> motion = ss.Motion([1.0, 2.0, 6.0], dt=0.5, units="m/s2")
+    /// >>> motion = ss.Motion([1.0, 2.0, 6.0], dt=0.1, units="m/s2")
     /// >>> motion.processed("remove mean", "scale 2").acceleration_m_per_s2.tolist()
     /// [-4.0, -2.0, 6.0]
     #[pyo3(signature = (*steps))]

@@ -5,8 +5,6 @@ use crate::{shell, web};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-const WASM: &str = "wasm32-unknown-unknown";
-
 /// Every file is formatted.
 pub fn formatting(_: &mut Tally) -> Result<(), Problem> {
     ensure_component("rustfmt", "fmt --version")?;
@@ -145,22 +143,21 @@ pub fn wasm_build(_: &mut Tally) -> Result<(), Problem> {
     wasm_built().map(drop)
 }
 
-/// Builds all that is built for WebAssembly, once; what the example `golden` gives here.
-pub(super) fn wasm_built() -> Result<String, Problem> {
-    ensure_wasm()?;
+/// Builds all that is built for WebAssembly, once; what the example `golden` gives here, and its module.
+pub(super) fn wasm_built() -> Result<(String, PathBuf), Problem> {
+    web::add_target().map_err(Problem::NotRun)?;
     let golden = shell::output(&mut shell::command(tested("examples/golden")?))?;
-    web::build_for_tests(golden.trim())?;
-    Ok(golden.trim().to_owned())
+    let module = web::build_for_tests(golden.trim())?;
+    Ok((golden.trim().to_owned(), module))
 }
 
 /// The example `golden` gives the same bits here and in WebAssembly.
 pub fn wasm_golden(_: &mut Tally) -> Result<(), Problem> {
-    ensure_wasm()?;
     let host = wasm_host().ok_or_else(|| {
         Problem::NotRun("found neither node nor wasmtime to run WebAssembly".to_owned())
     })?;
-    println!("  here:  {}", wasm_built()?);
-    let module = shell::target_folder()?.join(WASM).join("debug/examples/golden.wasm");
+    let (golden, module) = wasm_built()?;
+    println!("  here:  {golden}");
     let code = shell::output(&mut host(&module))?;
     match code.trim() {
         "0" => Ok(()),
@@ -194,18 +191,6 @@ fn ensure_component(component: &str, probe: &str) -> Result<(), Problem> {
     }
     shell::run(shell::command("rustup").args(["component", "add", component]))
         .map_err(|reason| Problem::NotRun(format!("{component} is missing; {reason}")))
-}
-
-/// Adds the target where it is missing.
-fn ensure_wasm() -> Result<(), Problem> {
-    let installed =
-        shell::output(shell::command("rustc").args(["--print", "target-libdir", "--target", WASM]))
-            .is_ok_and(|folder| PathBuf::from(folder.trim()).is_dir());
-    if installed {
-        return Ok(());
-    }
-    shell::run(shell::command("rustup").args(["target", "add", WASM]))
-        .map_err(|reason| Problem::NotRun(format!("the target {WASM} is missing; {reason}")))
 }
 
 /// The TOML files of a folder and those in it, sorted, as paths from the root of the workspace.

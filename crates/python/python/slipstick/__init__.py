@@ -8,7 +8,7 @@ Examples
 >>> import slipstick as ss
 >>> model = ss.Model({"block.mass": "325 kg", "slider.static_friction": 0.1,
 ...                   "slider.kinetic_friction": 0.08})
->>> motion = ss.Motion([0.0, 0.2, -0.2, 0.0], dt=0.5, units="g")
+>>> motion = ss.Motion([0.0, 0.2, -0.2, 0.0], dt=0.1, units="g")
 >>> response = ss.run(model, motion)
 >>> response.holds
 True

@@ -396,7 +396,7 @@ def sensitivity(
     >>> import slipstick as ss
     >>> model = ss.Model({"block.mass": "325 kg", "slider.static_friction": 0.06,
     ...                   "slider.kinetic_friction": 0.05, "slider.radius": "2 m"})
-    >>> motion = ss.Motion([0.0, 0.3, -0.3, 0.0], dt=0.25, units="g")
+    >>> motion = ss.Motion([0.0, 0.3, -0.3, 0.0], dt=0.1, units="g")
     >>> found = ss.sensitivity(model, motion, ["slider.kinetic_friction", "slider.radius"],
     ...                        demand="peak_sliding_displacement_m")
     >>> [bool(d < 0) for d in found.table["derivative"]]

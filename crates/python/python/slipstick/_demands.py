@@ -64,7 +64,7 @@ def demands(
     >>> import slipstick as ss
     >>> model = ss.Model({"block.mass": "325 kg", "slider.static_friction": 0.06,
     ...                   "slider.kinetic_friction": 0.05, "slider.radius": "2 m"})
-    >>> motion = ss.Motion([0.0, 0.3, -0.3, 0.0], dt=0.25, units="g")
+    >>> motion = ss.Motion([0.0, 0.3, -0.3, 0.0], dt=0.1, units="g")
     >>> table = ss.demands(model, motion, {"slider.radius": np.linspace(1.0, 3.0, 5)})
     >>> bool((np.diff(table["peak_sliding_displacement_m"]) > 0.0).all())
     True

@@ -83,7 +83,7 @@ def run(
     >>> import slipstick as ss
     >>> model = ss.Model({"block.mass": "325 kg", "slider.static_friction": 0.1,
     ...                   "slider.kinetic_friction": 0.08})
-    >>> response = ss.run(model, ss.Motion([0.0, 0.2, -0.2, 0.0], dt=0.5, units="g"))
+    >>> response = ss.run(model, ss.Motion([0.0, 0.2, -0.2, 0.0], dt=0.1, units="g"))
     >>> response.holds, response.summary["samples"]
     (True, 4)
     >>> float(abs(response.knots["friction_force_n"]).max()) == 0.1 * 325 * 9.80665

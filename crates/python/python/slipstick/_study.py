@@ -111,7 +111,7 @@ class Plan:
     >>> import slipstick as ss
     >>> model = ss.Model({"block.mass": "1 t", "slider.static_friction": 0.06,
     ...                   "slider.kinetic_friction": 0.05})
-    >>> records = {"pulse": ss.Motion([0.0, 0.3, -0.3, 0.0], dt=0.5, units="g")}
+    >>> records = {"pulse": ss.Motion([0.0, 0.3, -0.3, 0.0], dt=0.1, units="g")}
     >>> plan = ss.Plan(model, records, {"slider.kinetic_friction": {"uniform": [0.03, 0.06]}},
     ...                samples=64, seed=1, scale=[1.0, 2.0])
     >>> study = ss.study(plan)

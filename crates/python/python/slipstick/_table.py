@@ -44,7 +44,7 @@ class Table:
     --------
     >>> import slipstick as ss
     >>> model = ss.Model({"block.mass": "1 t", "slider.static_friction": 0.1, "slider.kinetic_friction": 0.1})
-    >>> motion = ss.Motion([0.0, 0.3, 0.0], dt=0.5, units="g")
+    >>> motion = ss.Motion([0.0, 0.3, 0.0], dt=0.1, units="g")
     >>> table = ss.study(ss.Plan(model, {"pulse": motion}, scale=[1.0, 2.0])).table
     >>> len(table), table.units["peak_sliding_displacement_m"], table["record"]
     (2, 'm', ['pulse', 'pulse'])

@@ -288,8 +288,8 @@ pub fn coarse_systems() -> Vec<System> {
 
 pub fn figures(c: &Certificate) -> String {
     let [r, f, e] = [c.equilibrium_residual, c.friction_excess, c.energy_balance_error];
-    let (d, call) = (c.demands_error, &c.closest_call);
-    format!("equilibrium {r:e}, friction {f:e}, energy {e:e}, demands {d:e}, {call:?}")
+    let (d, of, call) = (c.demands_error, &c.demand_in_error, &c.closest_call);
+    format!("equilibrium {r:e}, friction {f:e}, energy {e:e}, demands {d:e} of {of:?}, {call:?}")
 }
 
 /// Appends a knot: `[s, ṡ, block acceleration]`, friction force, storeys' `q`, `q̇`, accelerations.

@@ -78,10 +78,11 @@ impl<'a> PlaneJudge<'a> {
             let off = frame.block_kg * (p - f);
             self.figures.excess = larger(self.figures.excess, off);
         }
+        let Some(from) = self.last_heading(k) else { return };
         if self.axes.line.is_some() {
+            self.axes.peaks.see(&tracked, &acting, Some(from));
             return;
         }
-        let Some(from) = self.last_heading(k) else { return };
         let Some(to) = self.last_direction(from, push, f) else { return };
         if !frame.body.is_one() {
             let rate = frame.body.moved([push[0] - f * from[0], push[1] - f * from[1]]);

@@ -32,18 +32,22 @@ impl<'a> PlaneJudge<'a> {
         let widths = [model.block().width_m, model.along_y().width_m];
         let sides = [[most_x, -least_x], [most_y, -least_y]];
         for (axis, [most_m, least_m]) in sides.into_iter().enumerate() {
+            // Across the line of a motion along an axis nothing moves, and nothing is rounded.
+            let is_still = self.axes.line.is_some_and(|line| line[axis] == 0.0);
+            let sliding_m = [most_m.max(-least_m), most_m, least_m, last[axis]];
+            let peaks = &self.axes.peaks.largest[1 + axis];
             let own = Recomputed {
-                sliding_m: [most_m.max(-least_m), most_m, least_m, last[axis]],
-                peaks: &peaks.largest[1 + axis],
-                possible: &peaks.possible[1 + axis],
+                sliding_m,
+                scale_m: if is_still { sliding_m[0] } else { peak_m },
+                peaks,
+                possible: &self.axes.peaks.possible[1 + axis],
+                scales: if is_still { peaks } else { root.scales },
                 gap_m: None,
                 width_m: widths[axis],
                 ..root
             };
-            c.along(["x.", "y."][axis]);
-            // Across the line of a motion along an axis nothing is rounded.
-            let is_still = self.axes.line.is_some_and(|line| line[axis] == 0.0);
             let rounding = if is_still { &Rounding::default() } else { rounding };
+            c.along(["x.", "y."][axis]);
             of_directions(c, model, &plane.axes[axis], &own, rounding);
             c.same(has_no_axis(&plane.axes[axis]));
         }

@@ -307,11 +307,12 @@ impl<'a> PlaneJudge<'a> {
     /// Passes rest quicker than a time can tell: the block goes on along the push, if at all, and may have
     /// turned either way.
     fn turn_about(&mut self, path: &mut IntervalPath, loads: &Loads, at_s: f64) {
-        let tracked = self.tracked();
+        let (tracked, from) = (self.tracked(), unit(path.state.speed()));
         path.state.lose_speed(self.frame());
         let acting = self.acting(&path.state, loads);
-        if self.axes.line.is_none() {
-            self.axes.peaks.turn(&tracked, &acting, None, false);
+        match from.filter(|_| self.axes.line.is_some()) {
+            Some(from) => self.axes.peaks.see(&tracked, &acting, Some(from)),
+            None => self.axes.peaks.turn(&tracked, &acting, None, false),
         }
         let holds = self.holds_only(&path.state, loads);
         self.feed_speed(at_s, 0.0, |_| holds);

@@ -93,7 +93,7 @@ impl<'a> PlaneJudge<'a> {
             along_y,
             stepper: Stepper { frame, rule: Rule::get() },
             ground_y,
-            peaks: Peaks::new(&Tracked { frame, outputs: given.outputs }),
+            peaks: Peaks::new(&Tracked { frame, outputs: given.outputs, line: None }),
             event_directions: Vec::new(),
             minima: Minima::default(),
             least_speed: None,
@@ -113,7 +113,7 @@ impl<'a> PlaneJudge<'a> {
     }
 
     pub(super) fn tracked(&self) -> Tracked<'a> {
-        Tracked { frame: self.frame(), outputs: self.outputs }
+        Tracked { frame: self.frame(), outputs: self.outputs, line: self.axes.line }
     }
 
     /// The mode at a knot.

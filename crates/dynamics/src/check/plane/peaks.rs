@@ -58,6 +58,8 @@ impl<'a> Acting<'a> {
 pub(super) struct Tracked<'a> {
     pub(super) frame: &'a PlaneFrame<'a>,
     pub(super) outputs: &'a Outputs,
+    /// The direction of the one line on which all moves, if it does.
+    pub(super) line: Option<Pair>,
 }
 
 impl Tracked<'_> {
@@ -70,7 +72,9 @@ impl Tracked<'_> {
         let (frame, State { x, v }) = (self.frame, acting.state);
         out.clear();
         out.resize(self.len(), [0.0; 2]);
-        let [block, slider, friction] = acting.on_block(frame, direction);
+        // On a line friction is along it, whatever rounding makes of a velocity near rest.
+        let on_line = |u: Pair| self.line.map_or(u, |line| times(line, dot(u, line).signum()));
+        let [block, slider, friction] = acting.on_block(frame, direction.map(on_line));
         let of_part = |j: usize| -acting.floors[j] / frame.masses_kg[j];
         let by_modes = frame.points.as_ref().map(|points| {
             let of = |point: &PointOfModes| {
