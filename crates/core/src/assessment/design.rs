@@ -489,6 +489,9 @@ fn demands(ran: &[CaseRun<Demand>], gap_m: f64) -> Vec<Demand> {
     ran.iter().map(|ran| demand(ran, gap_m)).collect()
 }
 
+/// Designs with friction at its bounds, their runs, and how many of those were certified.
+type BoundedRuns = (Vec<Bounded>, Vec<CaseRun<Demand>>, Certified);
+
 /// What all runs of a search share.
 struct Runner<'a> {
     models: &'a Models,
@@ -589,7 +592,7 @@ impl<'a> Runner<'a> {
         factors: [f64; 2],
         target: &Target,
         name: &dyn Fn(&Case) -> String,
-    ) -> Result<(Vec<Bounded>, Vec<CaseRun<Demand>>, Certified), AssessmentError> {
+    ) -> Result<BoundedRuns, AssessmentError> {
         let with = |(design, factor): (usize, f64)| -> Result<Parts, RunError> {
             let parts = parts[design].as_ref().map_err(Clone::clone)?;
             Ok(Parts { model: parts.model.with_friction_times(factor)?, ..parts.clone() })

@@ -504,13 +504,15 @@ pub(crate) mod tests {
 
     use super::*;
 
+    type Which = fn(&Case) -> bool;
+
     thread_local! {
         /// The certificates of which runs are broken, on this thread.
-        static TAMPERED: Cell<Option<fn(&Case) -> bool>> = const { Cell::new(None) };
+        static TAMPERED: Cell<Option<Which>> = const { Cell::new(None) };
     }
 
     /// What `work` gives where the certificates of some runs are broken.
-    pub(crate) fn with_broken<R>(which: fn(&Case) -> bool, work: impl FnOnce() -> R) -> R {
+    pub(crate) fn with_broken<R>(which: Which, work: impl FnOnce() -> R) -> R {
         TAMPERED.set(Some(which));
         let given = work();
         TAMPERED.set(None);
