@@ -24,8 +24,8 @@ use crate::assessment::histories::Histories;
 use crate::assessment::ida::{IdaLevels, IdaRequest, IdaRun, run_ida};
 use crate::assessment::models::Models;
 use crate::assessment::observed::{
-    FitTo, FragilityGroup, FragilityRequest, FragilityRun, run_fragility, run_fragility_by,
-    usual_by,
+    FitTo, FragilityGroup, FragilityRequest, FragilityRun, certified, run_fragility,
+    run_fragility_by, usual_by,
 };
 use crate::assessment::spectrum::{SpectrumRequest, SpectrumRun, run_spectrum};
 use crate::assessment::suite::{Recorded, Suite};
@@ -35,6 +35,7 @@ use crate::input::{Analysis, Bound, FrictionBounds, Override, dimension_of};
 use crate::motion::intensity::LevelMeasure;
 use crate::notice::Notice;
 use crate::response::DemandColumn;
+use crate::study::Certified;
 use crate::study::engine::Engine;
 use crate::table::Table;
 use crate::units::Dimension;
@@ -73,6 +74,8 @@ pub struct Runs<'a> {
     pub table: &'a Table,
     /// The limit that it was made for, in SI, where it is known.
     pub limit: Option<f64>,
+    /// How many of its runs were certified, where its columns do not say so and its files do.
+    pub certified: Option<&'a Certified>,
 }
 
 /// What came of a request, and what it is of.
@@ -131,6 +134,8 @@ pub enum Results {
         limit: Option<f64>,
         /// Confidence of intervals.
         confidence: f64,
+        /// How many of the runs were certified; none where the table does not say so.
+        certified: Option<Certified>,
         /// The curves.
         curves: Curves,
     },
@@ -147,6 +152,21 @@ pub enum Results {
         /// What came of it.
         run: DesignRun,
     },
+}
+
+impl Results {
+    /// How many runs were certified; none of a table that does not say so.
+    #[must_use]
+    pub fn certified(&self) -> Option<Certified> {
+        match self {
+            Self::Suite { histories, .. } => Some(histories.certified()),
+            Self::Spectrum(run) => Some(run.certified.clone()),
+            Self::Sensitivity(run) => Some(run.certified()),
+            Self::Ida { run, .. } => Some(run.certified.clone()),
+            Self::Fragility { certified, .. } => certified.clone(),
+            Self::Design { run, .. } => Some(run.certified.clone()),
+        }
+    }
 }
 
 /// The curves of a fragility.
@@ -264,13 +284,14 @@ impl Request {
             }
         };
         let demand = demand.to_owned();
+        let certified = certified(&request)?.or_else(|| runs.certified.cloned());
         Ok(Answer {
             name: runs.name.to_owned(),
             model_hash: None,
             records: Vec::new(),
             scaled: String::new(),
             warnings: Vec::new(),
-            found: Results::Fragility { demand, limit, confidence, curves },
+            found: Results::Fragility { demand, limit, confidence, certified, curves },
         })
     }
 

@@ -6,6 +6,7 @@
 //! history is kept.
 
 pub(crate) mod cases;
+pub(crate) mod certified;
 mod columns;
 mod demanded;
 mod design;
@@ -17,6 +18,7 @@ pub mod summary;
 mod verify;
 
 pub use cases::{Case, CaseRun, Cases, FailedRun};
+pub use certified::{Certified, RunKind, Unconfirmed, Verdict, Worst, worse};
 pub(crate) use demanded::SLIDING;
 pub use demanded::{Demanded, TRAVEL_USED_UP, travel_used_up};
 pub use design::Design;
@@ -24,7 +26,6 @@ pub use notices::USUAL_FACTORS;
 pub use records::Record;
 pub use rows::Row;
 pub use summary::{LevelSummary, StudySummary};
-pub use verify::Verdict;
 
 pub use crate::numerics::random::Random;
 
@@ -38,7 +39,6 @@ use crate::input::{Bound, FrictionBounds, MAX_RUNS, Parts, Variation};
 use crate::motion::intensity::{IntensityMeasures, Measure};
 use crate::motion::target::{Matched, TargetSpectrum};
 use crate::notice::NoticeKind;
-use crate::numerics::random::{GOLDEN, mix};
 use crate::response::DemandShape;
 
 /// Most models that are kept for the next record: beyond, they are made anew.
@@ -443,14 +443,20 @@ impl Study {
         Ok(kept.get(range.start as usize..range.end as usize).unwrap_or_default().into())
     }
 
-    /// Whether a run is one of those that are run again alone and judged: one of every thousand of
-    /// the whole study, wherever it stands among them, and at least one.
+    /// Whether a run is drawn to be run again alone and judged: one of every thousand of the whole study,
+    /// wherever it stands among them, and at least one.
     #[must_use]
-    pub fn is_checked(&self, run: u64) -> bool {
-        const EVERY: u64 = 1000;
-        let first = run - run % EVERY;
-        let length = EVERY.min(self.runs().saturating_sub(first)).max(1);
-        run == first + mix(mix(first.wrapping_add(GOLDEN))) % length
+    pub fn is_drawn(&self, run: u64) -> bool {
+        certified::is_drawn(run, self.runs())
+    }
+
+    /// Those of some rows, in their order, that are run again alone and judged: the rows that are drawn, the first
+    /// of each kind of run, and all where they are few.
+    #[must_use]
+    pub fn to_certify<'r>(&self, rows: &'r [Row]) -> Vec<&'r Row> {
+        let kinds: Vec<_> = rows.iter().map(Row::kind_of_answer).collect();
+        let chosen = certified::chosen(&kinds, |place| self.is_drawn(rows[place].run));
+        chosen.into_iter().map(|place| &rows[place]).collect()
     }
 
     /// What rows say of their motion, in the order of [`Row::measures`].

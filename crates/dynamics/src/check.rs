@@ -153,21 +153,35 @@ impl Certificate {
         self.books.history()
     }
 
-    /// The figures that do not stay within the bound, each by its name; that of the demands with the demand.
-    #[must_use]
-    pub fn defects(&self) -> Vec<(String, f64)> {
+    /// The first four figures by their names, that of the demands with the demand.
+    fn figures(&self) -> [(String, f64); 4] {
         let of_demand = match &self.demand_in_error {
             Some(demand) => format!("demands error of {demand}"),
             None => "demands error".to_owned(),
         };
-        let all = [
+        [
             ("equilibrium residual".to_owned(), self.equilibrium_residual),
             ("friction excess".to_owned(), self.friction_excess),
             ("energy balance error".to_owned(), self.energy_balance_error),
             (of_demand, self.demands_error),
-        ];
+        ]
+    }
+
+    /// The figures that do not stay within the bound, each by its name; that of the demands with the demand.
+    #[must_use]
+    pub fn defects(&self) -> Vec<(String, f64)> {
         // What is not a number is not within it.
-        all.into_iter().filter(|(_, figure)| !(*figure <= self.bound)).collect()
+        self.figures().into_iter().filter(|(_, figure)| !(*figure <= self.bound)).collect()
+    }
+
+    /// The largest of the first four figures, by its name.
+    #[must_use]
+    pub fn largest(&self) -> (String, f64) {
+        let [first, rest @ ..] = self.figures();
+        rest.into_iter().fold(first, |most, other| {
+            let larger = other.1 > most.1 || other.1.is_nan() && !most.1.is_nan();
+            if larger { other } else { most }
+        })
     }
 
     /// Whether the first four figures stay within the bound.

@@ -260,9 +260,21 @@ pub enum RunError {
     /// The analysis itself.
     #[error(transparent)]
     Solve(#[from] SolveError),
+    /// An answer that the independent check does not confirm, which is none.
+    #[error("the independent check does not confirm it: {what}")]
+    Unconfirmed {
+        /// What is not confirmed.
+        what: String,
+    },
 }
 
 impl RunError {
+    /// Whether there was an answer, which the check does not confirm.
+    #[must_use]
+    pub fn is_unconfirmed(&self) -> bool {
+        matches!(self, Self::Unconfirmed { .. })
+    }
+
     /// The sliding displacement in m that the run reached, where it ended because its travel was used up.
     #[must_use]
     pub fn travel_used_up_m(&self) -> Option<f64> {

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use slipstick::error::CellError;
+use slipstick::study::Certified;
 use slipstick::table::{Cells, Column, Table, from_cell, to_cell};
 
 use crate::error::FileError;
@@ -47,6 +48,8 @@ pub struct ReadTable {
     pub table: Table,
     /// The file, the first of several.
     pub path: PathBuf,
+    /// How many of the runs of a study were certified, where its files say so.
+    pub certified: Option<Certified>,
     /// Of CSV the line of each row and the columns in characters of its cells, all from 1.
     places: Vec<(usize, Vec<usize>)>,
 }
@@ -96,7 +99,12 @@ pub fn read_table(files: &[PathBuf]) -> Result<ReadTable, FileError> {
             }
         }
     }
-    Ok(ReadTable { table: Table { columns }, path: first.clone(), places: Vec::new() })
+    Ok(ReadTable {
+        table: Table { columns },
+        path: first.clone(),
+        certified: None,
+        places: Vec::new(),
+    })
 }
 
 /// A table from the text of a CSV, all of whose cells are texts.
@@ -131,7 +139,7 @@ pub fn read_csv(path: &Path, text: &str) -> Result<ReadTable, FileError> {
         return Err(cell_error(path, 2, 1, "at least one row", "none"));
     }
     let columns = columns.into_iter().map(|(name, texts)| Column::texts(&name, texts)).collect();
-    Ok(ReadTable { table: Table { columns }, path: path.to_owned(), places })
+    Ok(ReadTable { table: Table { columns }, path: path.to_owned(), certified: None, places })
 }
 
 fn cell_error(path: &Path, line: usize, column: usize, expected: &str, found: &str) -> FileError {

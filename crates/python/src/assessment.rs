@@ -9,6 +9,7 @@ use slipstick::assessment::suite::Suite;
 use slipstick::notice::Notice;
 use slipstick::record::Units;
 use slipstick::requests::{Answer, Kind, On, Runs};
+use slipstick::study::{Certified, Worst};
 use slipstick::units::Dimension;
 use slipstick_files::{
     OpenJob, ReadRecords, SuiteError, SuiteRequest, TARGET, files_of_runs, limit_of_ida, read_runs,
@@ -206,33 +207,49 @@ pub(crate) fn suite(
     Assessment::new(py, asked.kind(), answer.map_err(|error| of_assessment(py, &error))?)
 }
 
-/// A lognormal fragility of a table, of which the limit may be known.
+/// Runs, how many of them were certified, and the worst of those.
+type Counted = (u64, u64, Option<(String, String, f64)>);
+
+/// A lognormal fragility of a table, of which the limit may be known, and how many of its runs were certified.
 #[pyfunction]
-#[pyo3(signature = (table, given, *, limit = None, jobs = None, progress = None))]
+#[pyo3(signature = (table, given, *, limit = None, certified = None, jobs = None, progress = None))]
+#[expect(clippy::too_many_arguments, reason = "the package calls it")]
 pub(crate) fn fit(
     py: Python<'_>,
     table: &Table,
     given: FieldTexts,
     limit: Option<f64>,
+    certified: Option<Counted>,
     jobs: Option<i64>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Assessment> {
     let asked = asked(py, Kind::Fragility.name(), given)?;
-    let runs = Runs { name: "table", source: "table", table: &table.0, limit };
+    let certified = certified.map(|(runs, certified, worst)| Certified {
+        certified,
+        worst: worst.map(|(run, what, error)| Worst { run, what, error }),
+        ..Certified::of(runs)
+    });
+    let certified = certified.as_ref();
+    let runs = Runs { name: "table", source: "table", table: &table.0, limit, certified };
     let answer = followed(py, jobs, progress, |engine| asked.fit(&runs, engine))?;
     Assessment::new(py, asked.kind(), answer.map_err(|error| of_assessment(py, &error))?)
 }
 
-/// Reads the runs of a table or of a command's folder, and the limit on a demand that they were made for.
+/// Reads the runs of a table or of a command's folder, the limit on a demand that they were made for, and how many of
+/// them were certified where they are those of a study.
 #[pyfunction]
 #[pyo3(name = "read_runs")]
 pub(crate) fn runs_of(
     py: Python<'_>,
     source: PathBuf,
     demand: Option<&str>,
-) -> PyResult<(Table, Option<f64>)> {
+) -> PyResult<(Table, Option<f64>, Option<Counted>)> {
     let asked = asked(py, Kind::Fragility.name(), Vec::new())?;
     let limit = limit_of_ida(&source, demand.unwrap_or(asked.demand()));
     let read = py.detach(|| read_runs(&files_of_runs(&source)?));
-    Ok((Table(read.map_err(|error| of_file(py, &error))?.table), limit))
+    let read = read.map_err(|error| of_file(py, &error))?;
+    let certified = read.certified.map(|of| {
+        (of.runs, of.certified, of.worst.map(|worst| (worst.run, worst.what, worst.error)))
+    });
+    Ok((Table(read.table), limit, certified))
 }

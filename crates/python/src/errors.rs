@@ -181,8 +181,8 @@ pub(crate) fn of_job(py: Python<'_>, error: &JobError) -> PyErr {
 }
 
 /// A run that does not hold when it is run again and judged.
-pub(crate) fn of_refuted(py: Python<'_>, run: u64) -> PyErr {
-    let message = format!("run {run} fails its check: run it alone, with its certificate");
+pub(crate) fn of_refuted(py: Python<'_>, run: u64, what: &str) -> PyErr {
+    let message = format!("run {run} fails its check ({what}): run it alone, with its certificate");
     exception(py, "StudyError", &message, |_| Ok(()))
 }
 

@@ -110,7 +110,7 @@ pub(crate) fn demands(
     })?;
     match done {
         Err(Stopped) => Err(PyKeyboardInterrupt::new_err(())),
-        Ok((_, Some(run))) => Err(of_refuted(py, run)),
+        Ok((_, Some((run, what)))) => Err(of_refuted(py, run, &what)),
         Ok((table, None)) => Ok(Table(table)),
     }
 }

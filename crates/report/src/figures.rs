@@ -11,6 +11,7 @@ mod trace;
 pub(crate) use histories::marked;
 pub(crate) use trace::Trace;
 
+use slipstick::input::Names;
 use slipstick::response::{History, Mode};
 
 use crate::display::Unit;
@@ -128,9 +129,18 @@ fn shown_storeys(values: &[f64]) -> Vec<usize> {
     vec![0, middle, n - 1]
 }
 
-/// ` Storeys 1, 4 and 8 of 8 are drawn.`, or nothing where all are.
-fn shown_note(shown: &[usize], n: usize) -> String {
+/// What the figure of drifts is called.
+fn drifts_title(names: &Names) -> &'static str {
+    if names.points.is_empty() { "Storey drifts over time" } else { "Drifts of points over time" }
+}
+
+/// ` Storeys 1, 4 and 8 of 8 are drawn.`, points by their names, or nothing where all are.
+fn shown_note(shown: &[usize], n: usize, names: &Names) -> String {
     match shown {
+        [a, b, c] if n > 3 && !names.points.is_empty() => {
+            let [a, b, c] = [a, b, c].map(|i| names.point(i + 1));
+            format!(" {a}, {b} and {c} of {n} points are drawn.")
+        }
         [a, b, c] if n > 3 => {
             format!(" Storeys {}, {} and {} of {n} are drawn.", a + 1, b + 1, c + 1)
         }

@@ -18,7 +18,7 @@ use slipstick::requests::{Answer, Door, Field, Kind, On, Request, Results, Runs,
 use slipstick::response::Method;
 use slipstick::study::engine::Engine;
 use slipstick::study::summary::{Rows, Take};
-use slipstick::study::{Case, Record, Study};
+use slipstick::study::{Case, Certified, Record, Study};
 use slipstick::table::Table;
 use slipstick_report::DisplayUnits;
 use slipstick_report::assessment::answer::Tabled;
@@ -373,7 +373,13 @@ impl<'a> Job<'a> {
                 let ida = settings.asked(Kind::Ida)?.run(&on, engine).map_err(failed)?;
                 let Results::Ida { limit, run, .. } = &ida.found else { return Ok((None, ida)) };
                 let source = "the incremental dynamic analysis";
-                let runs = Runs { name: &self.name, source, table: &run.rows, limit: *limit };
+                let runs = Runs {
+                    name: &self.name,
+                    source,
+                    table: &run.rows,
+                    limit: *limit,
+                    certified: None,
+                };
                 let curve = settings.asked(kind)?.fit(&runs, engine).map_err(failed)?;
                 Ok((Some(ida), curve))
             }
@@ -720,7 +726,7 @@ impl Planned {
         let study = StudyReport {
             study: &self.study,
             summary: &summary.map_err(Failure::of)?,
-            checked: 0,
+            certified: &Certified::of(self.study.runs()),
             notices: &self.notices,
             display,
         };

@@ -40,6 +40,7 @@ pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
         source: &read.path.display().to_string(),
         table: &read.table,
         limit: limit_of_ida(&args.source, asked.demand()),
+        certified: read.certified.as_ref(),
     };
     let fit = |engine: &Engine<'_>| on_threads(args.threads.number(), || asked.fit(&runs, engine));
     let answer = counted("fitting", quiet, fit).map_err(|error| match error {

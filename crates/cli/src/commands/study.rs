@@ -5,8 +5,8 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::time::Duration;
 
-use slipstick::study::StudySummary;
 use slipstick::study::engine::Engine;
+use slipstick::study::{Certified, StudySummary};
 use slipstick_files::{
     FileError, InputFiles, OpenStudy, OutputFolder, STUDY_REPORT, Shard, StudyError, clear,
     conclude, estimate, has_parts, kept_runs, merge, on_threads, part_rows, quoted, read_bytes,
@@ -113,17 +113,15 @@ fn run(args: &StudyArgs, study: &OpenStudy, shard: Shard, out: &Path) -> Result<
     for warning in said(&summary).iter().filter(|_| !args.quiet) {
         say(format_args!("warning: {warning}"));
     }
+    let certified = outcome.checks.certified(outcome.runs);
     if args.report {
-        report(args, study, &summary, outcome.checks.rows, out)?;
+        report(args, study, &summary, &certified, out)?;
     }
     if !args.quiet {
-        let checks = outcome.checks;
         say(format_args!(
-            "{} runs, {} failed; {} run again alone: same bits, equilibrium residual at most {:.1e}",
+            "{} runs, {} failed; run again alone, with the same bits: {certified}",
             count(outcome.runs),
             count(outcome.failures),
-            count(checks.rows),
-            checks.equilibrium_residual,
         ));
         let page = if args.report { STUDY_REPORT } else { "summary.csv" };
         let (page, table) = (out.join(page), out.join("parts"));
@@ -138,13 +136,13 @@ fn report(
     args: &StudyArgs,
     study: &OpenStudy,
     summary: &StudySummary,
-    checked: u64,
+    certified: &Certified,
     out: &Path,
 ) -> Result<(), Failure> {
     let page = StudyReport {
         study: &study.study,
         summary,
-        checked,
+        certified,
         notices: &study.notices,
         display: args.display_units,
     };

@@ -811,6 +811,85 @@ fn runs_beyond_flat_geometry_are_counted_in_every_analysis() {
     }
 }
 
+/// Every answer says how many of its runs were certified, and which was the worst: as text, as JSON and on its page.
+#[test]
+fn every_answer_says_how_many_of_its_runs_were_certified() {
+    let folder = suite("certified", 6);
+    let levels = ["--scale-to", "0.5..6 m/s2:12", "--limit", "50 mm"];
+    let cases: [(&str, &[&str], u64); 6] = [
+        (
+            "ida",
+            &[
+                "ida",
+                "model.toml",
+                "--records",
+                "records",
+                "--scale-to",
+                "0.5..6 m/s2:12",
+                "--limit",
+                "50 mm",
+            ],
+            72,
+        ),
+        ("hunt", &["ida", "model.toml", "--records", "records"], 0),
+        (
+            "spectrum",
+            &["spectrum", "model.toml", "--records", "records", "--over", "slider.radius=1..3m:3"],
+            18,
+        ),
+        (
+            "design",
+            &["design", "model.toml", "--records", "records", "--friction", "0.04..0.1:4"],
+            0,
+        ),
+        ("run", &["run", "model.toml", "--records", "records"], 6),
+        ("fragility", &["fragility", "ida"], 72),
+    ];
+    for (out, arguments, runs) in cases {
+        let output = folder.output(&[arguments, &["--out", out]].concat());
+        let said = text(&output.stdout);
+        let line = said.lines().find(|line| line.starts_with("Checked"));
+        let line = line.unwrap_or_else(|| panic!("{out}: {said}"));
+        assert!(line.contains(" runs certified"), "{out}: {line}");
+        let summary: Value =
+            serde_json::from_str(&folder.read(&format!("{out}/summary.json"))).unwrap();
+        let certified = &summary["certified"];
+        let [of, count] = ["runs", "certified"].map(|key| certified[key].as_u64().unwrap());
+        assert!(1 <= count && count <= of && (runs == 0 || of == runs), "{out}: {certified}");
+        assert_eq!(certified["unconfirmed"], serde_json::json!([]), "{out}");
+        if out != "fragility" {
+            assert!(line.contains("; worst: r"), "{out}: {line}");
+            let worst = &certified["worst"];
+            assert!(worst["run"].is_string() && worst["what"].is_string(), "{out}: {worst}");
+            assert!(number(&worst["error"]) < 1e-10, "{out}: {worst}");
+        }
+        let page = folder.read(&format!("{out}/report.html"));
+        assert!(page.contains(&format!("Certificates: {count} of {of} runs certified")), "{out}");
+    }
+    // A table of one's own says nothing of it.
+    folder.write("own.csv", "level,runs,exceeded\n1,20,2\n2,20,9\n3,20,16\n");
+    let own = json(&folder, &["fragility", "own.csv", "--measure", "PGA", "--units", "m/s2"]);
+    assert_eq!(own["certified"], Value::Null);
+    // A study says it of its parts.
+    folder.write(
+        "plan.toml",
+        format!(
+            "name = \"S\"\nmodel = \"model.toml\"\n[records]\nfiles = [\"records/*.csv\"]\n\
+             measure = \"PGA\"\nlevels = {:?}\n",
+            (1..13).map(|i| format!("{} m/s2", 0.5 * f64::from(i))).collect::<Vec<_>>()
+        ),
+    );
+    folder.stdout(&["study", "plan.toml", "--out", "study", "-q"]);
+    folder.stdout(&["study", "merge", "study", "--out", "merged.parquet"]);
+    for source in ["study", "merged.parquet"] {
+        let of_study = json(&folder, &["fragility", source, levels[2], levels[3]]);
+        let certified = &of_study["certified"];
+        assert_eq!(certified["runs"], 72, "{certified}");
+        assert!(certified["certified"].as_u64().unwrap() >= 1, "{certified}");
+        assert!(certified["worst"]["run"].as_str().unwrap().starts_with("run "), "{certified}");
+    }
+}
+
 /// The limit of the analysis is known beside its tables, as in its folder.
 #[test]
 fn fragility_knows_the_limit_of_the_analysis() {

@@ -201,6 +201,43 @@ fn spectra_are_no_motions() {
     assert!(answers[0] != Value::Null && answers.iter().all(|answer| *answer == answers[0]));
 }
 
+/// A target spectrum of which nobody says after which code it is does not silently take the periods and B_M of
+/// ASCE/SEI 7: with `--periods` the first is not taken, and of a spectrum of that code nothing is assumed.
+#[test]
+fn a_code_that_is_assumed_is_said() {
+    let folder = Folder::with_model("field-assumed", MODEL);
+    let motion = |factor: f64| table("time_s,acceleration_m_per_s2", ",", seconds, factor);
+    folder.write("first.csv", motion(1.0));
+    folder.write("second.csv", motion(-0.8).replace("0.0000000", "0.0000001"));
+    let rows = (1..60).map(|i| {
+        let period = 0.1 * f64::from(i);
+        format!("{period:.1},{:.4}\n", (0.6 / period).min(1.0))
+    });
+    folder.write("target.csv", format!("T(s),Sae(g)\n{}", rows.collect::<String>()));
+    let suite = ["run", "model.toml", "--records", "first.csv", "--second", "second.csv"];
+    let assumed = |options: &[&str]| {
+        let answer = folder.stdout(&[&suite[..], options, &["--json"]].concat());
+        let answer: Value = serde_json::from_str(&answer).unwrap();
+        let warnings = answer["warnings"].as_array().unwrap().clone();
+        let of_kind = warnings.iter().filter(|warning| warning["kind"] == "code_assumed");
+        of_kind.map(|warning| warning["message"].as_str().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    let target = ["--target", "target.csv"].as_slice();
+    let [both] = &assumed(target)[..] else { panic!("one notice") };
+    for part in ["range of periods, 0.75 to 1.25 T_M", "B_M", "ASCE/SEI 7", "EN 1998"] {
+        assert!(both.contains(part), "{part}: {both}");
+    }
+    let [factor] = &assumed(&[target, &["--periods", "0.3 s..3 s"]].concat())[..] else {
+        panic!("one notice")
+    };
+    assert!(factor.contains("B_M") && !factor.contains("0.75 to 1.25"), "{factor}");
+    let code = ["--code-spectrum", "sds = 1 g, sd1 = 0.6 g, tl = 8 s"];
+    assert!(assumed(&code).is_empty());
+    let text = folder.stdout(&[&suite[..], target].concat());
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("code_assumed: the target spectrum is a table"), "{text}");
+}
+
 /// Recorders at the end of their range, with the noise of their amplifiers.
 #[test]
 fn clipped_records_are_noticed() {

@@ -483,6 +483,28 @@ fn report_of_a_suite_says_what_it_is_of() {
     assert!(page.find("id=\"target\"").unwrap() < page.find("id=\"histories\"").unwrap());
 }
 
+/// Two records of one name in two folders are two rows, each with its factor.
+#[test]
+fn records_of_one_name_are_two_rows() {
+    let folder = folder("histories-alike", 2);
+    folder.write("a/taft.csv", folder.read("records/r0.csv"));
+    folder.write("b/taft.csv", folder.read("records/r1.csv"));
+    let run = ["run", "plain.toml", "--records", "a/taft.csv", "b/taft.csv", "--scale-to", "0.3 g"];
+    let text = folder.stdout(&[&run[..], &["--out", "out"]].concat());
+    let rows = |name: &str| text.lines().filter(|line| line.starts_with(name)).count();
+    // In the table of the records with their factors, and in each table of demands.
+    assert!(rows("a/taft.csv ") > 3 && rows("a/taft.csv ") == rows("b/taft.csv "), "{text}");
+    let summary: serde_json::Value =
+        serde_json::from_str(&folder.read("out/summary.json")).unwrap();
+    let scales: Vec<f64> = summary["suite"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|on| on["scale"].as_f64().unwrap())
+        .collect();
+    assert!(scales.len() == 2 && scales[0] != scales[1], "{scales:?}");
+}
+
 /// A factor that makes another motion of a record is said with the record.
 #[test]
 fn far_factors_are_said() {

@@ -45,6 +45,36 @@ fn points_have_names_and_peaks() {
     assert!(!kinds.flatten().any(|kind| kind == "missing_modes"));
 }
 
+/// Floor spectra and histories of a structure by its modes call its points by their names, wherever they are drawn.
+#[test]
+fn floor_spectra_name_points_by_their_names() {
+    let modes = "period_s,damping_ratio,participation_x,first_x,second_x,third_x,fourth_x,roof_x\n\
+                 0.5,0.03,800,0.0003,0.0005,0.0008,0.001,0.0012\n\
+                 0.2,0.03,300,0.001,0.0006,0.0001,-0.0004,-0.0009\n";
+    let folder = folder("structure-spectra", modes);
+    folder.stdout(&["run", "model.toml", "--floor-spectrum", "--out", "out", "-q"]);
+    let page = folder.read("out/report.html").to_lowercase();
+    for said in [">roof<", "of 5 points are drawn", "a point of the structure"] {
+        assert!(page.contains(said), "{said}");
+    }
+    // Nothing calls them floors or storeys.
+    for wrong in [
+        "floor 1",
+        "floor 5",
+        "storey 1",
+        "storey 5",
+        "5 storeys",
+        "and storeys over",
+        "storey drifts",
+    ] {
+        assert!(!page.contains(wrong), "{wrong}");
+    }
+    let json = folder.json(&["model.toml", "--floor-spectrum"]);
+    let points = json["points"].as_array().map(Vec::len);
+    let spectra = json["floor_spectrum"]["storeys_acceleration_m_per_s2"].as_array().map(Vec::len);
+    assert_eq!((points, spectra), (Some(5), Some(5)));
+}
+
 #[test]
 fn faults_of_a_table_of_modes_are_told_where_they_are() {
     for (name, from, to, place) in [

@@ -137,13 +137,40 @@ fn whole_study_has_every_run_in_order() {
     // One of every thousand of all, wherever the parts are cut.
     let manifest: serde_json::Value =
         serde_json::from_str(&folder.read("out/manifest.json")).unwrap();
-    assert_eq!(manifest["checks"]["rows"], 2);
+    // And the first of each kind of run in every part: here of one kind.
+    assert_eq!(manifest["checks"]["rows"], 5);
+    let worst = &manifest["checks"]["worst"];
+    assert!(worst["run"].as_str().unwrap().starts_with("run "), "{worst}");
+    assert!(worst["error"].as_f64().unwrap() < 1e-10, "{worst}");
     assert_eq!(manifest["rows"], 1500);
     assert_eq!(manifest["complete"], true);
     assert_eq!(manifest["seed"], 1);
     assert_eq!(manifest["plan"], PLAN);
     assert_eq!(manifest["inputs"].as_array().unwrap().len(), 4);
     assert!(manifest["checks"]["equilibrium_residual"].as_f64().unwrap() < 1e-10);
+}
+
+/// Of a plan of two rows of two kinds both are certified; the worst is named beside the count, on the page and in
+/// the manifest, also when the study is gone on with.
+#[test]
+fn a_row_of_each_kind_is_certified() {
+    let folder = folder("study-kinds");
+    let plan = "name = \"Two\"\nmodel = \"model.toml\"\n[vary]\n\
+                \"slider.tilt\" = { values = [\"0 rad\", \"0.005 rad\"] }\n\
+                [sampling]\nmethod = \"grid\"\n";
+    folder.write("plan.toml", plan);
+    for again in [&["--report"][..], &["--resume"]] {
+        let output = folder.output(&[&["study", "plan.toml", "--out", "out"], again].concat());
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        let said = text(&output.stderr);
+        assert!(said.contains("2 of 2 runs certified; worst: run "), "{said}");
+    }
+    let page = folder.read("out/report.html");
+    assert!(page.contains("Certificates: 2 of 2 runs certified; worst: run "), "{page}");
+    let manifest: serde_json::Value =
+        serde_json::from_str(&folder.read("out/manifest.json")).unwrap();
+    assert_eq!(manifest["checks"]["rows"], 2);
+    assert!(manifest["checks"]["worst"]["what"].is_string(), "{manifest}");
 }
 
 /// Mean, quantiles and maximum as one would compute them from the sorted column.

@@ -32,6 +32,7 @@ use crate::response::{
 use crate::solver;
 use crate::study::cases::{Case, CaseRun, Runs};
 use crate::study::engine::Engine;
+use crate::study::{Certified, Unconfirmed, Worst};
 use crate::table::{Cells, Column, Table};
 
 /// Runs on a record that steps may be made smaller within; of more than 20 keys two more than those that all take.
@@ -112,10 +113,36 @@ pub struct OfRecord {
     pub scale: f64,
     /// Whether the certificate holds; `None` without an answer.
     pub holds: Option<bool>,
+    /// The largest figure of the certificate by its name.
+    pub largest: Option<(String, f64)>,
     /// The nearest decision.
     pub closest_call: Option<ClosestCall>,
     /// Runs that were made on it.
     pub analyses: u64,
+}
+
+impl DerivativeRun {
+    /// How many of the runs were certified: of each record the one of the model as it stands.
+    #[must_use]
+    pub fn certified(&self) -> Certified {
+        let mut certified = Certified::of(self.runs);
+        for of in &self.records {
+            let run = || of.name.clone();
+            let worst = of.largest.clone().map(|(what, error)| Worst { run: run(), what, error });
+            let refused = worst.clone().filter(|_| of.holds == Some(false));
+            let refused = refused.map(|Worst { run, what, error }| Unconfirmed {
+                run,
+                what: format!("{what} {error:.1e}"),
+            });
+            certified.join(Certified {
+                runs: 0,
+                certified: u64::from(of.holds.is_some()),
+                worst,
+                unconfirmed: refused.into_iter().collect(),
+            });
+        }
+        certified
+    }
 }
 
 /// What came of it.
@@ -264,6 +291,7 @@ pub fn run_derivatives(
         name: suite.records[i].name.clone(),
         scale: factors[i],
         holds: base.kept.as_ref().ok().map(|base| base.holds),
+        largest: base.kept.as_ref().ok().map(|base| base.largest.clone()),
         closest_call: base.kept.as_ref().ok().and_then(|base| base.closest_call),
         analyses: analyses[i],
     });
@@ -306,6 +334,7 @@ fn columns(request: &DerivativeRequest<'_>) -> Result<Vec<usize>, AssessmentErro
 struct Base {
     sample: Sample,
     holds: bool,
+    largest: (String, f64),
     closest_call: Option<ClosestCall>,
     noticed: Vec<Notice>,
 }
@@ -327,6 +356,7 @@ fn on_base(
     Ok(Base {
         sample: Sample::of(&response, columns),
         holds: certificate.holds(),
+        largest: certificate.largest(),
         closest_call: certificate.closest_call,
         noticed: response.warnings,
     })

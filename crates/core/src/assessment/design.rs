@@ -13,6 +13,8 @@
 //! is dropped when its bound of displacement is beyond the gap, or when a design of the front is
 //! better than both bounds. So the front equals that of the full grid, run for run.
 
+use std::collections::HashMap;
+
 use super::grid::Axis;
 use super::models::Models;
 use super::proportion::Proportion;
@@ -25,8 +27,9 @@ use crate::notice::Notice;
 use crate::numerics::fractile::{held_by, needed, sorted};
 use crate::numerics::sort;
 use crate::numerics::unit_points;
-use crate::response::demand_values;
-use crate::study::cases::{Case, CaseRun, Runs};
+use crate::response::{Response, demand_values};
+use crate::study::cases::{Case, CaseRun, Runs, holds_column};
+use crate::study::certified::{Certified, same_bits};
 use crate::study::engine::Engine;
 use crate::study::{Demanded, SLIDING, TRAVEL_USED_UP};
 use crate::table::Table;
@@ -307,6 +310,9 @@ pub struct DesignRun {
     pub sensitivity: Option<Result<Sensitivity, SensitivityError>>,
     /// Runs of the search without an answer.
     pub failures: Vec<FailedRun>,
+    /// How many runs of the search and of its front under bounds of friction were certified. One that the check
+    /// does not confirm chooses nothing.
+    pub certified: Certified,
     /// What was noticed of runs of the search.
     pub warnings: Vec<Notice>,
     /// Both figures over the two main variables; `None` where fewer than two vary.
@@ -383,34 +389,32 @@ pub fn run_design(
     let records = suite.records.len();
     let grid = models.grid();
     let parts = models.all(records, engine)?;
-    let mut ran: Vec<CaseRun<Demand>> = Vec::new();
-    let found = search(&target, grid.len(), records, |pairs: &[(usize, usize)]| {
-        let case = |&(design, record): &(usize, usize)| Case {
-            design,
-            record,
-            scale: runner.factors[record],
-            ..Case::default()
-        };
-        let runs = runner.run(&pairs.iter().map(case).collect::<Vec<_>>(), &parts)?;
-        let demands = demands(&runs, target.gap_m);
-        ran.extend(runs);
-        Ok::<_, AssessmentError>(demands)
-    })?;
     let label = |design: usize| grid.label(design);
     let in_words = suite.in_words(&[], &label);
+    let mut ran: Vec<CaseRun<Demand>> = Vec::new();
+    let mut found = runner.searched(&target, &parts, &mut ran)?;
+    let mut certified = runner.certify(&mut ran, &parts, &|case| in_words.case(case))?;
+    if !certified.unconfirmed.is_empty() {
+        // A run that is not confirmed has chosen nothing.
+        found = runner.searched(&target, &parts, &mut ran)?;
+        certified.runs = ran.len() as u64;
+    }
     let (mut failed, mut warnings) = (in_words.failures(&ran), in_words.noticed(&ran));
     let bounded = match request.bounds {
         None => None,
         Some(factors) => {
             let designs: Vec<usize> =
                 found.front.iter().chain(&found.nearest).map(|point| point.design).collect();
-            let (bounded, ran) = runner.bounded(&designs, &parts, factors, &target)?;
             let bounds = ["lower", "upper"].into_iter().zip(factors);
             let bounds = bounds.map(|(name, friction_factor)| Bound { name, friction_factor });
             let bounds: Vec<Bound> = bounds.collect();
             let in_words = suite.in_words(&bounds, &label);
+            let name = |case: &Case| in_words.case(case);
+            let (bounded, ran, of_bounds) =
+                runner.bounded((&designs, &parts), factors, &target, &name)?;
             failed.extend(in_words.failures(&ran));
             warnings.extend(in_words.noticed(&ran));
+            certified.join(of_bounds);
             Some(bounded)
         }
     };
@@ -427,6 +431,7 @@ pub fn run_design(
         bounded,
         sensitivity,
         failures: failed,
+        certified,
         warnings,
         map,
         front,
@@ -461,6 +466,7 @@ fn rows(
         let used_up = ran.iter().map(|ran| ran.travel_used_up_m().unwrap_or(f64::NAN));
         rows.numbers(TRAVEL_USED_UP, "m", used_up.collect());
     }
+    rows.columns.push(holds_column(ran));
     Ok(rows)
 }
 
@@ -470,16 +476,21 @@ const MAP_VALUES: usize = 25;
 /// A run of which nothing is known.
 const UNKNOWN: Demand = Demand { displacement_m: f64::NAN, acceleration_m_per_s2: f64::NAN };
 
-/// What runs say where a gap is to be kept.
-fn demands(ran: &[CaseRun<Demand>], gap_m: f64) -> Vec<Demand> {
-    let of = |ran: &CaseRun<Demand>| {
-        ran.kept.as_ref().copied().unwrap_or_else(|error| {
-            let sliding = Demanded::of(SLIDING, f64::NAN, error.travel_used_up_m());
-            Demand { displacement_m: sliding.against(gap_m), ..UNKNOWN }
-        })
-    };
-    ran.iter().map(of).collect()
+/// What a run says where a gap is to be kept.
+fn demand(ran: &CaseRun<Demand>, gap_m: f64) -> Demand {
+    ran.kept.as_ref().copied().unwrap_or_else(|error| {
+        let sliding = Demanded::of(SLIDING, f64::NAN, error.travel_used_up_m());
+        Demand { displacement_m: sliding.against(gap_m), ..UNKNOWN }
+    })
 }
+
+/// The same of several.
+fn demands(ran: &[CaseRun<Demand>], gap_m: f64) -> Vec<Demand> {
+    ran.iter().map(|ran| demand(ran, gap_m)).collect()
+}
+
+/// Designs with friction at its bounds, their runs, and how many of those were certified.
+type BoundedRuns = (Vec<Bounded>, Vec<CaseRun<Demand>>, Certified);
 
 /// What all runs of a search share.
 struct Runner<'a> {
@@ -526,27 +537,77 @@ impl<'a> Runner<'a> {
         )
     }
 
+    /// The front of a target; runs that were made already are not made again, those that are made are kept.
+    fn searched(
+        &self,
+        target: &Target,
+        parts: &[Result<Parts, RunError>],
+        ran: &mut Vec<CaseRun<Demand>>,
+    ) -> Result<SearchResult, AssessmentError> {
+        let of = |ran: &CaseRun<Demand>| (ran.case.design, ran.case.record);
+        let mut places: HashMap<(usize, usize), usize> =
+            ran.iter().enumerate().map(|(place, ran)| (of(ran), place)).collect();
+        search(target, parts.len(), self.factors.len(), |pairs: &[(usize, usize)]| {
+            let lacking = pairs.iter().filter(|pair| !places.contains_key(pair));
+            let case = |&(design, record): &(usize, usize)| Case {
+                design,
+                record,
+                scale: self.factors[record],
+                ..Case::default()
+            };
+            for run in self.run(&lacking.map(case).collect::<Vec<_>>(), parts)? {
+                places.insert(of(&run), ran.len());
+                ran.push(run);
+            }
+            let of_pairs = pairs.iter().map(|pair| demand(&ran[places[pair]], target.gap_m));
+            Ok::<_, AssessmentError>(of_pairs.collect())
+        })
+    }
+
+    /// Judges some runs of designs; `name` is what a run is called.
+    fn certify(
+        &self,
+        ran: &mut [CaseRun<Demand>],
+        designs: &[Result<Parts, RunError>],
+        name: &dyn Fn(&Case) -> String,
+    ) -> Result<Certified, Stopped> {
+        let same = |demand: &Demand, response: &Response| {
+            let values = demand_values(&response.demands);
+            let again = [values[self.displacement], values[self.acceleration]];
+            same_bits(&[demand.displacement_m, demand.acceleration_m_per_s2], &again)
+        };
+        self.runs.certify(ran, |case| &designs[case.design], same, name)
+    }
+
     /// Every one of some designs on every record, the records fastest.
     fn all(&self, parts: &[Result<Parts, RunError>]) -> Result<Vec<CaseRun<Demand>>, Stopped> {
         self.run(&Case::every(parts.len(), 1, &self.factors), parts)
     }
 
-    /// Figures of designs with friction times the lower and the upper factor, and those runs.
+    /// Figures of designs, those of these numbers, with friction times the lower and the upper factor, those runs,
+    /// and how many of them were certified; `name` is what a run is called.
     fn bounded(
         &self,
-        designs: &[usize],
-        parts: &[Result<Parts, RunError>],
+        (designs, parts): (&[usize], &[Result<Parts, RunError>]),
         factors: [f64; 2],
         target: &Target,
-    ) -> Result<(Vec<Bounded>, Vec<CaseRun<Demand>>), AssessmentError> {
+        name: &dyn Fn(&Case) -> String,
+    ) -> Result<BoundedRuns, AssessmentError> {
         let with = |(design, factor): (usize, f64)| -> Result<Parts, RunError> {
             let parts = parts[design].as_ref().map_err(Clone::clone)?;
             Ok(Parts { model: parts.model.with_friction_times(factor)?, ..parts.clone() })
         };
         let both = designs.iter().flat_map(|design| factors.map(|factor| (*design, factor)));
-        let mut ran = self.all(&both.map(with).collect::<Vec<_>>())?;
+        let with_factors = both.map(with).collect::<Vec<_>>();
+        let mut ran = self.all(&with_factors)?;
+        let of_bound = |case: &Case| Case {
+            design: designs[case.design / 2],
+            bound: case.design % 2,
+            ..*case
+        };
+        let certified = self.certify(&mut ran, &with_factors, &|case| name(&of_bound(case)))?;
         for CaseRun { case, .. } in &mut ran {
-            (case.design, case.bound) = (designs[case.design / 2], case.design % 2);
+            *case = of_bound(case);
         }
         let of_bounds = demands(&ran, target.gap_m);
         let of_bounds: Vec<&[Demand]> = of_bounds.chunks(self.factors.len()).collect();
@@ -555,7 +616,7 @@ impl<'a> Runner<'a> {
             Ok(Bounded { design, lower, upper })
         };
         let bounded = of_bounds.chunks(2).zip(designs).map(bounded);
-        Ok((bounded.collect::<Result<_, AssessmentError>>()?, ran))
+        Ok((bounded.collect::<Result<_, AssessmentError>>()?, ran, certified))
     }
 
     /// Figures over the two main variables, at no more than [`MAP_VALUES`] values of each.

@@ -18,9 +18,9 @@ use crate::record::Origin;
 use crate::response::{
     DemandColumn, DemandShape, Demands, Method, Response, flat_geometry, struck,
 };
-use crate::study::Record;
 use crate::study::cases::{Case, CaseRun, status};
 use crate::study::engine::Engine;
+use crate::study::{Certified, Record, Unconfirmed, Worst};
 use crate::table::{Cells, Column, Table};
 
 /// From this number of records on their mean governs, of fewer the maximum (ASCE/SEI 7, chapter 17).
@@ -67,6 +67,8 @@ pub struct CertifiedRun {
     pub demands: Demands,
     /// What the check does not confirm of it; none where its certificate holds.
     pub defect: Option<String>,
+    /// The largest figure of its certificate by its name; none of a run without one.
+    pub largest: Option<(String, f64)>,
 }
 
 impl OnRecord {
@@ -134,6 +136,24 @@ pub struct Histories {
     pub notices: Vec<Notice>,
 }
 
+impl Histories {
+    /// How many runs of all models were certified, each by its model where there are several.
+    #[must_use]
+    pub fn certified(&self) -> Certified {
+        let mut all = Certified::default();
+        for model in &self.models {
+            let mut of_model = model.certified();
+            if self.models.len() > 1 {
+                let worst = of_model.worst.iter_mut().map(|worst| &mut worst.run);
+                let refused = of_model.unconfirmed.iter_mut().map(|refused| &mut refused.run);
+                worst.chain(refused).for_each(|run| *run = format!("{}: {run}", model.name));
+            }
+            all.join(of_model);
+        }
+        all
+    }
+}
+
 impl ModelHistories {
     /// What the model has that demands are asked of.
     #[must_use]
@@ -161,6 +181,22 @@ impl ModelHistories {
                 Some((on, bound, run.as_ref().ok()?.defect.as_deref()?))
             })
         })
+    }
+
+    /// How many of the runs were certified: all that have an answer, but for those of the stepwise method.
+    #[must_use]
+    pub fn certified(&self) -> Certified {
+        let mut certified = Certified::default();
+        for on in &self.records {
+            for (bound, run) in self.bounds.iter().zip(&on.runs) {
+                let name = match self.bounds.len() {
+                    1 => on.record.clone(),
+                    _ => format!("{} with {} friction", on.record, bound.name),
+                };
+                certified.join(of_run(name, run));
+            }
+        }
+        certified
     }
 
     /// The runs without an answer.
@@ -250,6 +286,22 @@ impl ModelHistories {
         let all: Vec<(usize, f64)> = all.filter(|_| self.failures().next().is_none()).collect();
         let all = all.into_iter().filter(|(_, value)| !value.is_nan());
         all.reduce(|a, b| if b.1 > a.1 { b } else { a }).map(|(i, _)| i)
+    }
+}
+
+/// That of one run by its name.
+fn of_run(run: String, ran: &Result<CertifiedRun, FailedRun>) -> Certified {
+    let ran = ran.as_ref().ok();
+    let largest = ran.and_then(|ran| ran.largest.clone());
+    let defect = ran.and_then(|ran| ran.defect.clone());
+    Certified {
+        runs: 1,
+        certified: u64::from(largest.is_some()),
+        unconfirmed: defect
+            .map(|what| Unconfirmed { run: run.clone(), what })
+            .into_iter()
+            .collect(),
+        worst: largest.map(|(what, error)| Worst { run, what, error }),
     }
 }
 
@@ -349,6 +401,7 @@ pub(crate) fn lateral(analysis: &Analysis, spectrum: &TargetSpectrum) -> Vec<Opt
 struct RunFigures {
     demands: Demands,
     defect: Option<String>,
+    largest: Option<(String, f64)>,
     alone: Option<Alone>,
     /// Times in s and sliding displacements in m, with nominal friction.
     sliding: Option<[Vec<f64>; 2]>,
@@ -368,6 +421,7 @@ impl RunFigures {
                 let names = certificate.defects().into_iter().map(|(name, _)| name);
                 names.collect::<Vec<_>>().join(", ")
             }),
+            largest: (response.method != Method::Stepwise).then(|| certificate.largest()),
             alone: None,
             sliding,
             noticed: [job.warnings, response.warnings, met.collect()],
@@ -464,7 +518,7 @@ impl OnRecord {
         }
         self.sliding = kept.sliding.unwrap_or_else(|| core::mem::take(&mut self.sliding));
         self.notices.extend(of_response.into_iter().chain(met.into_iter().map(of_bound)));
-        CertifiedRun { demands: kept.demands, defect: kept.defect }
+        CertifiedRun { demands: kept.demands, defect: kept.defect, largest: kept.largest }
     }
 }
 

@@ -18,7 +18,8 @@ use crate::notice::Notice;
 use crate::numerics::fractile;
 use crate::numerics::sort;
 use crate::response::{Response, demand_values};
-use crate::study::cases::{Case, CaseRun, OneThread, status};
+use crate::study::cases::{Case, CaseRun, OneThread, holds_column, status};
+use crate::study::certified::{Certified, same_bits};
 use crate::study::engine::Engine;
 use crate::study::{Demanded, Record, TRAVEL_USED_UP};
 use crate::table::{Cells, Column, Table};
@@ -300,6 +301,8 @@ pub struct IdaRun {
     pub groups: Vec<IdaGroup>,
     /// Runs without an answer.
     pub failures: Vec<FailedRun>,
+    /// How many runs were certified. One that the check does not confirm is no point of its curve.
+    pub certified: Certified,
     /// What was noticed of runs.
     pub warnings: Vec<Notice>,
     /// A row a run: record, level, scale, design, all demands.
@@ -393,14 +396,23 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
         }
         (IdaLevels::Hunt { .. }, None) => Vec::new(),
     };
-    let curve = |runs: &Vec<(f64, CaseRun<Vec<f64>>)>| Curve {
-        levels: runs.iter().map(|(level, _)| *level).collect(),
-        demands: runs.iter().map(|(_, ran)| demanded(ran)).collect(),
-    };
-    let curves: Vec<Curve> = ran.iter().map(curve).collect();
-    let (levels, flat): (Vec<f64>, Vec<CaseRun<Vec<f64>>>) = ran.into_iter().flatten().unzip();
+    let lengths: Vec<usize> = ran.iter().map(Vec::len).collect();
+    let (levels, mut flat): (Vec<f64>, Vec<CaseRun<Vec<f64>>>) = ran.into_iter().flatten().unzip();
     let label = |design: usize| models.grid().label(design);
     let in_words = suite.in_words(request.bounds, &label);
+    let same = |values: &Vec<f64>, response: &Response| {
+        same_bits(values, &demand_values(&response.demands))
+    };
+    let certified = all_runs.certify(&mut flat, design, same, |case| in_words.case(case))?;
+    let mut points = levels.iter().copied().zip(&flat);
+    let curve = |&length: &usize| {
+        let runs: Vec<(f64, &CaseRun<Vec<f64>>)> = points.by_ref().take(length).collect();
+        Curve {
+            levels: runs.iter().map(|(level, _)| *level).collect(),
+            demands: runs.iter().map(|(_, ran)| demanded(ran)).collect(),
+        }
+    };
+    let curves: Vec<Curve> = lengths.iter().map(curve).collect();
     let (failures, warnings) = (in_words.failures(&flat), in_words.noticed(&flat));
     let record = |curve: usize| &suite.records[curve % records].name;
     let group = |group: DesignGroup| {
@@ -452,9 +464,10 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
         let used_up = flat.iter().map(|ran| ran.travel_used_up_m().unwrap_or(f64::NAN));
         rows.numbers(TRAVEL_USED_UP, "m", used_up.collect());
     }
+    rows.columns.push(holds_column(&flat));
     rows.texts("status", flat.iter().map(|ran| status(ran.kept.as_ref().err())).collect());
     let by = by.map(|by| (by.to_owned(), by_unit));
-    Ok(IdaRun { by, groups, failures, warnings, rows, capacities })
+    Ok(IdaRun { by, groups, failures, certified, warnings, rows, capacities })
 }
 
 /// The designs of an analysis: the models of its grid with each bound of friction, those fastest.

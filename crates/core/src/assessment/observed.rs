@@ -10,6 +10,7 @@ use super::{AssessmentError, refuse};
 use crate::error::FitError;
 use crate::notice::{Notice, NoticeKind};
 use crate::study::engine::Engine;
+use crate::study::{Certified, Unconfirmed};
 use crate::table::{Cells, Table};
 
 use columns::Columns;
@@ -226,6 +227,32 @@ pub fn usual_by(request: &FragilityRequest<'_>) -> Result<Option<&'static str>, 
         _ => false,
     };
     Ok(several.then_some(rows::FRICTION))
+}
+
+/// How many runs of a table were certified, where it says so in its column `holds`, of the rows that are kept.
+///
+/// # Errors
+/// [`AssessmentError`] for conditions that cannot be understood.
+pub fn certified(request: &FragilityRequest<'_>) -> Result<Option<Certified>, AssessmentError> {
+    let columns = Columns { table: request.table, source_name: request.source_name };
+    let kept = rows::keep(columns, request.keep)?;
+    let columns = Columns { table: kept.as_ref().unwrap_or(request.table), ..columns };
+    let Some(holds) = columns.holds() else { return Ok(None) };
+    let texts =
+        |name: &str, row: usize| columns.table.texts_of(name).map(|texts| texts[row].clone());
+    let mut certified = Certified::of(holds.len() as u64);
+    for (row, holds) in holds.into_iter().enumerate().filter(|(_, holds)| !holds.is_nan()) {
+        let refused = (holds == 0.0).then(|| Unconfirmed {
+            run: texts("record", row).unwrap_or_else(|| format!("row {row}")),
+            what: texts("status", row).filter(|status| status != "ok").unwrap_or_default(),
+        });
+        certified.join(Certified {
+            certified: 1,
+            unconfirmed: refused.into_iter().collect(),
+            ..Certified::default()
+        });
+    }
+    Ok(Some(certified))
 }
 
 fn fit(

@@ -13,7 +13,8 @@ use crate::motion::GroundMotion;
 use crate::notice::Notice;
 use crate::numerics::fractile::fractiles;
 use crate::response::{DemandColumn, Response, demand_values};
-use crate::study::cases::{Case, CaseRun, status};
+use crate::study::cases::{Case, CaseRun, holds_column, status};
+use crate::study::certified::{Certified, same_bits};
 use crate::study::engine::Engine;
 use crate::study::{Demanded, Record, TRAVEL_USED_UP};
 use crate::table::Table;
@@ -126,6 +127,8 @@ pub struct SpectrumRun {
     pub window_key: String,
     /// Runs without an answer.
     pub failures: Vec<FailedRun>,
+    /// How many runs were certified. One that the check does not confirm is left out of the fractiles.
+    pub certified: Certified,
     /// What was noticed of runs.
     pub warnings: Vec<Notice>,
     /// Number of runs, those of the fixed-base models apart.
@@ -212,7 +215,13 @@ pub fn run_spectrum(
         demands: demand_values(&response.demands),
         table: peak(motion),
     };
-    let runs = suite.runs(&factors, tail_s(&parts), engine)?.all(&cases, design, keep)?;
+    let label = |design: usize| grid.label(design);
+    let in_words = suite.in_words(request.bounds, &label);
+    let of_suite = suite.runs(&factors, tail_s(&parts), engine)?;
+    let mut runs = of_suite.all(&cases, design, keep)?;
+    let same =
+        |run: &Run, response: &Response| same_bits(&run.demands, &demand_values(&response.demands));
+    let certified = of_suite.certify(&mut runs, design, same, |case| in_words.case(case))?;
     let fixed = match models.shape().storeys + models.shape().points {
         0 => vec![f64::NAN; runs.len()],
         _ => on_fixed_base(&parts, suite, &factors, engine)?,
@@ -281,8 +290,6 @@ pub fn run_spectrum(
             intervals_above(&axis.values, &median, 1.0)
         })
         .collect();
-    let label = |design: usize| grid.label(design);
-    let in_words = suite.in_words(request.bounds, &label);
     let (failures, warnings) = (in_words.failures(&runs), in_words.noticed(&runs));
 
     let mut table = Table::default();
@@ -325,6 +332,7 @@ pub fn run_spectrum(
         let used_up = runs.iter().map(|ran| ran.travel_used_up_m().unwrap_or(nothing));
         rows.numbers(TRAVEL_USED_UP, "m", used_up.collect());
     }
+    rows.columns.push(holds_column(&runs));
     rows.texts("status", runs.iter().map(|ran| status(ran.kept.as_ref().err())).collect());
     Ok(SpectrumRun {
         over: axis.path.clone(),
@@ -340,6 +348,7 @@ pub fn run_spectrum(
         curves,
         windows,
         failures,
+        certified,
         warnings,
         runs: runs.len(),
         table,

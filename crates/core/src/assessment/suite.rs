@@ -1,5 +1,7 @@
 //! The records that a model is run on, and how they are scaled.
 
+use std::collections::BTreeSet;
+
 use super::grid::levels;
 use super::{AssessmentError, refuse};
 use crate::error::{MotionError, RunError, Stopped};
@@ -117,12 +119,32 @@ pub fn condensed<'a>(of: impl IntoIterator<Item = (&'a str, &'a [Notice])>) -> V
     noticed.into_iter().map(told).collect()
 }
 
+/// Gives records of the same name their numbers among those: `a (1)`, `a (2)`.
+fn number_alike(records: &mut [Record]) {
+    let names: Vec<String> = records.iter().map(|record| record.name.clone()).collect();
+    let mut taken: BTreeSet<String> = names.iter().cloned().collect();
+    for (i, record) in records.iter_mut().enumerate() {
+        let is_alike = |other: &&String| **other == names[i];
+        if names.iter().filter(is_alike).count() == 1 {
+            continue;
+        }
+        let mut number = 1 + names[..i].iter().filter(is_alike).count();
+        while !taken.insert(format!("{} ({number})", names[i])) {
+            number += 1;
+        }
+        record.name = format!("{} ({number})", names[i]);
+    }
+}
+
 impl Suite {
-    /// Records that were read, by their names, each alone.
+    /// Records that were read, by their names, each alone. Those that share a name, as motions of one description
+    /// do, are told apart by their numbers.
     #[must_use]
     pub fn of(read: impl IntoIterator<Item = (String, Loaded)>, made: bool) -> Self {
         let record = |(name, loaded): (String, Loaded)| Record::read(name, loaded, None);
-        Self { records: read.into_iter().map(record).collect(), made, notices: Vec::new() }
+        let mut records: Vec<Record> = read.into_iter().map(record).collect();
+        number_alike(&mut records);
+        Self { records, made, notices: Vec::new() }
     }
 
     /// Takes records that stand beside each other as the two components of pairs.

@@ -1,3 +1,4 @@
+mod certified;
 mod choice;
 mod fits;
 mod hunts;

@@ -6,15 +6,18 @@
 
 use core::borrow::Borrow;
 
+use super::certified::{Certified, RunKind, Verdict, chosen, is_drawn};
 use super::engine::{Engine, Running};
 use super::records::Record;
+use crate::check::{self, Certificate};
 use crate::error::{MotionError, RunError, Stopped};
 use crate::input::{Bound, MotionSource, Parts};
 use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::notice::{Notice, NoticeKind};
 use crate::response::{Response, flat_geometry};
-use crate::solver::{PreparedMotion, Workspace};
+use crate::solver::{self, PreparedMotion, Workspace};
+use crate::table::{Cells, Column};
 
 /// Runs of one design that one thread takes: the model is prepared once for them.
 const PIECE: usize = 16;
@@ -108,6 +111,8 @@ pub struct CaseRun<R, M = ()> {
     pub kept: Result<R, RunError>,
     /// What was noticed of the response.
     pub noticed: Vec<Noticed>,
+    /// Whether the check confirms it, where it was asked.
+    pub holds: Option<bool>,
 }
 
 /// What was noticed of a response, without its message.
@@ -128,7 +133,7 @@ impl<R, M> CaseRun<R, M> {
 
     /// A run of which nothing else is known.
     pub(crate) fn of(case: Case, kept: Result<R, RunError>) -> Self {
-        Self { case, known: None, kept, noticed: Vec::new() }
+        Self { case, known: None, kept, noticed: Vec::new(), holds: None }
     }
 }
 
@@ -270,6 +275,61 @@ impl<'a, M: Clone + Send + Sync> Runs<'a, M> {
     }
 }
 
+impl<M: Clone + Send + Sync> Runs<'_, M> {
+    /// Makes some of the runs again, each alone with its history, and judges them: one of every thousand and the
+    /// first of each kind. One that the check does not confirm, or that is not the same to the last bit, loses its
+    /// answer. `name` is what a run is called.
+    pub(crate) fn certify<'d, R: Send + Sync>(
+        &self,
+        ran: &mut [CaseRun<R, M>],
+        design: impl Fn(&Case) -> &'d Result<Parts, RunError> + Sync,
+        same: impl Fn(&R, &Response) -> bool + Sync,
+        name: impl Fn(&Case) -> String,
+    ) -> Result<Certified, Stopped> {
+        let kind = |ran: &CaseRun<R, M>| {
+            let parts = design(&ran.case).as_ref().ok().filter(|_| ran.kept.is_ok())?;
+            Some(RunKind::of(parts, self.records.get(ran.case.record)))
+        };
+        let kinds: Vec<Option<RunKind>> = ran.iter().map(kind).collect();
+        let runs = ran.len() as u64;
+        let mut chosen = chosen(&kinds, |place| is_drawn(place as u64, runs));
+        chosen.retain(|&place| ran[place].kept.is_ok());
+        let verdicts = self.engine.map(chosen.len(), |i| {
+            let CaseRun { case, kept, .. } = &ran[chosen[i]];
+            let judged = design(case).as_ref().map_err(Clone::clone);
+            let judged = judged.and_then(|parts| self.judged(case, parts));
+            // What has no answer the second time came out differently.
+            let (Ok((response, certificate)), Ok(kept)) = (judged, kept) else {
+                return Ok(Verdict::default());
+            };
+            Ok(Verdict::of(&certificate, same(kept, &response)))
+        })?;
+        let mut certified = Certified::of(runs);
+        for (place, verdict) in chosen.into_iter().zip(verdicts) {
+            let run = &mut ran[place];
+            #[cfg(test)]
+            let verdict = tests::tampered(&run.case, verdict);
+            certified.add(&name(&run.case), &verdict);
+            run.holds = Some(verdict.holds());
+            if !verdict.holds() {
+                run.kept = Err(RunError::Unconfirmed { what: verdict.what_failed() });
+            }
+        }
+        Ok(certified)
+    }
+
+    /// The response of a case with its history, and its certificate.
+    fn judged(&self, case: &Case, parts: &Parts) -> Result<(Response, Certificate), RunError> {
+        let Case { record, scale, .. } = *case;
+        let source = parts.motion.as_ref().filter(|_| self.records.is_empty());
+        let origin = MotionOrigin { record, scale, source, turned_rad: None, tail_s: parts.tail_s };
+        let motion = origin.finished(origin.bare(self.records)?)?;
+        let response = solver::exact(&parts.model, &motion)?;
+        let certificate = check::check(&parts.model, &motion, &response);
+        Ok((response, certificate))
+    }
+}
+
 /// Runs one after the other: a model is prepared once for all of its runs, a motion for those in a row.
 pub(crate) struct OneThread<'a, M = ()> {
     of: &'a Runs<'a, M>,
@@ -329,6 +389,7 @@ impl<'a, M: Clone + Send + Sync> OneThread<'a, M> {
                 known,
                 noticed: noticed_of(&parts.model, &response),
                 kept: Ok(keep(&case, &response, ready.motion.motion())),
+                holds: None,
             },
             Err(error) => failed(known, &error.into()),
         }
@@ -354,6 +415,15 @@ impl core::fmt::Display for FailedRun {
 pub(crate) fn status(error: Option<&RunError>) -> String {
     error.map_or_else(|| "ok".to_owned(), RunError::to_string)
 }
+
+/// The column `holds` of runs: whether the check confirms a run, empty where it was not asked.
+pub(crate) fn holds_column<R, M>(ran: &[CaseRun<R, M>]) -> Column {
+    let cells = Cells::Flags(ran.iter().map(|ran| ran.holds).collect());
+    Column { name: HOLDS.to_owned(), unit: String::new(), cells }
+}
+
+/// Name of that column.
+pub(crate) const HOLDS: &str = "holds";
 
 /// What the runs of an analysis are called in messages.
 #[derive(Clone, Copy)]
@@ -387,12 +457,15 @@ impl InWords<'_> {
         FailedRun { case: self.case(case), error: error.clone() }
     }
 
-    /// The runs without an answer.
+    /// The runs without an answer, but for those that had one which the check does not confirm.
     pub(crate) fn failures<'r, R: 'r, M: 'r>(
         &self,
         ran: impl IntoIterator<Item = &'r CaseRun<R, M>>,
     ) -> Vec<FailedRun> {
-        let of = |ran: &CaseRun<R, M>| Some(self.failed(&ran.case, ran.kept.as_ref().err()?));
+        let of = |ran: &CaseRun<R, M>| {
+            let error = ran.kept.as_ref().err().filter(|error| !error.is_unconfirmed())?;
+            Some(self.failed(&ran.case, error))
+        };
         ran.into_iter().filter_map(of).collect()
     }
 
@@ -426,8 +499,34 @@ where
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
+    use core::cell::Cell;
+
     use super::*;
+
+    type Which = fn(&Case) -> bool;
+
+    thread_local! {
+        /// The certificates of which runs are broken, on this thread.
+        static TAMPERED: Cell<Option<Which>> = const { Cell::new(None) };
+    }
+
+    /// What `work` gives where the certificates of some runs are broken.
+    pub(crate) fn with_broken<R>(which: Which, work: impl FnOnce() -> R) -> R {
+        TAMPERED.set(Some(which));
+        let given = work();
+        TAMPERED.set(None);
+        given
+    }
+
+    pub(super) fn tampered(case: &Case, verdict: Verdict) -> Verdict {
+        if !TAMPERED.get().is_some_and(|which| which(case)) {
+            return verdict;
+        }
+        let what = "demands error of peak_sliding_displacement_m".to_owned();
+        let defects = format!("{what} 5.0e-1 above the bound 1.0e-10");
+        Verdict { holds: false, largest: Some((what, 0.5)), defects, ..verdict }
+    }
 
     #[test]
     fn runs_count_bounds_and_samples_fastest() {

@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::cases::{Case, CaseRun, Cases, Noticed, Runs};
+use super::certified::RunKind;
 use super::engine::Engine;
 use super::notices::{USUAL_FACTORS, coarse_sampling, longest_step_s};
 use super::{Sample, Study, chunks};
@@ -36,9 +37,16 @@ pub struct Row {
     pub warnings: Vec<NoticeKind>,
     /// Why the run failed, where it did.
     pub error: Option<RunError>,
+    /// What it is one of, by which the runs that are certified are chosen.
+    pub kind: RunKind,
 }
 
 impl Row {
+    /// Its kind where it has an answer, which alone can be certified.
+    pub(super) fn kind_of_answer(&self) -> Option<RunKind> {
+        self.error.is_none().then_some(self.kind)
+    }
+
     /// The travel in m that the run has used up; none where it has an answer, or lacks one for another reason.
     #[must_use]
     pub fn travel_used_up_m(&self) -> Option<f64> {
@@ -130,7 +138,9 @@ impl Study {
     }
 
     fn row(&self, sample: &Sample, ran: CaseRun<Answer, Shaken>) -> Row {
-        let CaseRun { case, known, kept, noticed } = ran;
+        let CaseRun { case, known, kept, noticed, .. } = ran;
+        let parts = sample.parts.as_ref().ok();
+        let kind = parts.map(|parts| RunKind::of(parts, self.records.get(case.record)));
         let nothing = || vec![f64::NAN; self.measures.len()].into();
         let measures = known.as_ref().map_or_else(nothing, |known| known.measures.clone());
         let (demands, warnings, error) = match kept {
@@ -142,7 +152,8 @@ impl Study {
             Err(error) => (vec![f64::NAN; self.demand_columns().len()], Vec::new(), Some(error)),
         };
         let (run, values) = (self.cases.run(&case), sample.values.clone());
-        Row { run, case, measures, values, demands, warnings, error }
+        let kind = kind.unwrap_or_default();
+        Row { run, case, measures, values, demands, warnings, error, kind }
     }
 
     /// Kinds of what is noticed of the record, and of model and motion before they are run.
@@ -477,14 +488,55 @@ mod tests {
         assert_eq!(study.rows(0..study.runs(), &Engine::new(&follow)), Err(Stopped));
     }
 
-    /// One run of every thousand is checked, wherever parts are cut, and at least one of all.
+    /// Of two rows of two kinds both are certified, and a wrong one is found by its demand; so are all of a few
+    /// rows of one kind, and of many the first of each kind.
+    #[test]
+    fn a_row_of_each_kind_is_certified() {
+        let pulse =
+            |up| GroundMotion::new(vec![0.0, 0.5, 0.5, 1.5], vec![4.0, 4.0, 0.0, 0.0], up).unwrap();
+        let plan = |count: usize| {
+            let text = format!(
+                "model = \"m.toml\"\n[records]\nfiles = \"*.csv\"\n[vary]\n\
+                 \"slider.kinetic_friction\" = {{ uniform = [0.02, 0.04] }}\n\
+                 [sampling]\nmethod = \"sobol\"\ncount = {count}\nseed = 1\n"
+            );
+            Plan::parse("plan.toml", &text).unwrap()
+        };
+        let records = || {
+            let up = Some(vec![0.0, 1.0, -1.0, 0.0]);
+            vec![Record::new("flat", pulse(None)), Record::new("lifted", pulse(up))]
+        };
+        let study = |count: usize| Study::new(&plan(count), "m.toml", MODEL, records()).unwrap();
+        let runs = |rows: &[&Row]| rows.iter().map(|row| row.run).collect::<Vec<_>>();
+        let two = study(1);
+        let mut all = rows(&two, 0..2);
+        assert_eq!(runs(&two.to_certify(&all)), [0, 1]);
+        assert_ne!(all[0].kind, all[1].kind);
+        // A wrong row among two is found, whichever it is.
+        for wrong in 0..2 {
+            let right = all[wrong].demands[0];
+            all[wrong].demands[0] *= 1.0 + 1e-9;
+            let found = two.refuted(&all, 1000, &Engine::unwatched()).unwrap();
+            assert_eq!(found.map(|(run, _)| run), Some(wrong as u64));
+            all[wrong].demands[0] = right;
+        }
+        let many = study(64);
+        let all = rows(&many, 0..128);
+        let drawn = (0..128).filter(|run| many.is_drawn(*run));
+        let mut expected: Vec<u64> = drawn.chain([0, 64]).collect();
+        expected.sort_unstable();
+        expected.dedup();
+        assert_eq!(runs(&many.to_certify(&all)), expected);
+    }
+
+    /// One run of every thousand is drawn, wherever parts are cut, and at least one of all.
     #[test]
     fn one_run_of_a_thousand_is_checked() {
         for (count, checked) in [(70, 1), (500, 3), (3000, 18)] {
             let study = study("slider.kinetic_friction = { uniform = [0.02, 0.19] }", count);
             let of_block = |block: u64| {
                 let end = (block + 1000).min(study.runs());
-                (block..end).filter(|run| study.is_checked(*run)).count()
+                (block..end).filter(|run| study.is_drawn(*run)).count()
             };
             let counts: Vec<usize> = (0..study.runs()).step_by(1000).map(of_block).collect();
             assert!(counts.len() == checked && counts.iter().all(|n| *n == 1), "{counts:?}");

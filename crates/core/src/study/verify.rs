@@ -1,44 +1,20 @@
 //! Rows under test: run again alone, from the model's text, with history and certificate.
 
 use super::cases::{Case, MotionOrigin, Noticed, noticed_of};
+use super::certified::{Verdict, chosen, same_bits};
 use super::engine::Engine;
 use super::notices::{highest_hz, longest_step_s, suspicious};
 use super::rows::{of_demands, warnings};
 use super::{Row, Study};
-use crate::check::{self, Certificate};
+use crate::check;
 use crate::error::{RunError, Stopped};
 use crate::input::Analysis;
 use crate::motion::GroundMotion;
 use crate::solver;
 
-/// What became of running a row again.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Verdict {
-    /// Whether every number of the row came out the same, to the last bit; of a failed run, the same
-    /// error.
-    pub same: bool,
-    /// Whether the certificate holds; of a failed run, which has none, whether it failed again.
-    pub holds: bool,
-    /// The certificate's largest defect of the equations of motion.
-    pub equilibrium_residual: f64,
-    /// Its largest excess over the friction law.
-    pub friction_excess: f64,
-    /// Its largest imbalance of energy.
-    pub energy_balance_error: f64,
-    /// Its largest difference of a demand from the one recomputed.
-    pub demands_error: f64,
-}
-
-impl Verdict {
-    /// Whether nothing is wrong with the row.
-    #[must_use]
-    pub fn holds(&self) -> bool {
-        self.same && self.holds
-    }
-}
-
 impl Study {
-    /// Runs one row of so many again and judges it, the first at least; the first that does not hold.
+    /// Runs one row of so many again and judges it, the first of each kind of run besides; the first that does not
+    /// hold, and what is wrong with it.
     ///
     /// # Errors
     /// [`Stopped`].
@@ -47,11 +23,12 @@ impl Study {
         rows: &[Row],
         one_of: usize,
         engine: &Engine<'_>,
-    ) -> Result<Option<u64>, Stopped> {
-        let checked: Vec<&Row> = rows.iter().step_by(one_of.max(1)).collect();
-        let verdicts = engine.map(checked.len(), |i| Ok(self.verify(checked[i]).holds()))?;
-        let failed = checked.iter().zip(verdicts).find(|(_, holds)| !holds);
-        Ok(failed.map(|(row, _)| row.run))
+    ) -> Result<Option<(u64, String)>, Stopped> {
+        let kinds: Vec<_> = rows.iter().map(Row::kind_of_answer).collect();
+        let checked = chosen(&kinds, |place| place % one_of.max(1) == 0);
+        let verdicts = engine.map(checked.len(), |i| Ok(self.verify(&rows[checked[i]])))?;
+        let failed = checked.iter().zip(verdicts).find(|(_, verdict)| !verdict.holds());
+        Ok(failed.map(|(&place, verdict)| (rows[place].run, verdict.what_failed())))
     }
 
     /// Runs a row again as `slipstick run` would, and judges the response.
@@ -66,34 +43,18 @@ impl Study {
             Err(error) => return failed_again(row, &error.into()),
         };
         let certificate = check::check(&analysis.model, &motion, &response);
-        let bits = |values: &[f64]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
         let suspicious: Vec<_> =
             suspicious(&analysis.model).into_iter().map(|warning| warning.kind).collect();
         let highest_hz = highest_hz(&analysis.model);
         let noticed = self.noticed(row.case, &suspicious, highest_hz, step_s);
         let same = row.error.is_none()
-            && bits(&self.demands(&response)) == bits(&row.demands)
+            && same_bits(&self.demands(&response), &row.demands)
             && warnings([
                 noticed,
                 of_demands(&response.demands),
                 Noticed::kinds(&noticed_of(&analysis.model, &response)),
             ]) == row.warnings;
-        let holds = certificate.holds();
-        let Certificate {
-            equilibrium_residual,
-            friction_excess,
-            energy_balance_error,
-            demands_error,
-            ..
-        } = certificate;
-        Verdict {
-            same,
-            holds,
-            equilibrium_residual,
-            friction_excess,
-            energy_balance_error,
-            demands_error,
-        }
+        Verdict::of(&certificate, same)
     }
 
     /// The analysis and the motion of a row, made from the text and the record, and the longest step of the

@@ -6,7 +6,7 @@ use slipstick::input::plan::Method;
 use slipstick::study::StudySummary;
 use slipstick::study::engine::Engine;
 use slipstick::table::Cells;
-use slipstick_report::json::Json;
+use slipstick_report::json::{Json, worst_keys};
 
 use super::part::{self, Checks, Notes, PartFile};
 use super::parts::{MANIFEST, PARTS, PartsFound, SUMMARY, find, held};
@@ -18,7 +18,7 @@ use crate::parquet::at;
 use crate::write::{refuse_inputs, write_whole, write_whole_with};
 
 /// What was joined to one file.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Merged {
     /// Number of rows.
     pub rows: u64,
@@ -102,6 +102,7 @@ fn checks(checks: &Checks) -> Json {
         ("friction_excess", checks.friction_excess.into()),
         ("energy_balance_error", checks.energy_balance_error.into()),
         ("demands_error", checks.demands_error.into()),
+        ("worst", checks.worst.as_ref().map_or(Json::Null, worst_keys)),
     ])
 }
 
@@ -162,7 +163,7 @@ pub fn merge(folders: &[PathBuf], out: &Path) -> Result<Merged, StudyError> {
         first: 0,
         rows: total.rows,
         failures: total.failures,
-        checks: total.checks,
+        checks: total.checks.clone(),
         measure: first.notes.measure.clone().or_else(|| measure_of_levels(&first.table.path)),
         ..first.notes
     };

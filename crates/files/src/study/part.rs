@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::ops::Range;
 
-use slipstick::study::Verdict;
+use slipstick::study::{Certified, Verdict, Worst, worse};
 use slipstick::table::{Cells, Field};
 
 use crate::error::FileError;
@@ -47,7 +47,7 @@ pub(super) fn part_of_name(name: &str) -> Option<u64> {
 }
 
 /// What came of running rows again.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Checks {
     /// Number of rows.
     pub rows: u64,
@@ -59,12 +59,23 @@ pub struct Checks {
     pub energy_balance_error: f64,
     /// Worst difference of a demand from the one recomputed.
     pub demands_error: f64,
+    /// The row with the largest figure of all, and that figure; none of parts of older versions.
+    pub worst: Option<Worst>,
 }
 
 impl Checks {
+    /// That so many of some runs were certified.
+    #[must_use]
+    pub fn certified(&self, runs: u64) -> Certified {
+        let worst = self.worst.clone();
+        Certified { certified: self.rows, worst, ..Certified::of(runs) }
+    }
+
     /// With one more row.
-    pub(super) fn add(&mut self, verdict: &Verdict) {
+    pub(super) fn add(&mut self, run: u64, verdict: &Verdict) {
+        let largest = verdict.largest.clone();
         self.join(&Self {
+            worst: largest.map(|(what, error)| Worst { run: format!("run {run}"), what, error }),
             rows: 1,
             equilibrium_residual: verdict.equilibrium_residual,
             friction_excess: verdict.friction_excess,
@@ -80,6 +91,7 @@ impl Checks {
         self.friction_excess = self.friction_excess.max(other.friction_excess);
         self.energy_balance_error = self.energy_balance_error.max(other.energy_balance_error);
         self.demands_error = self.demands_error.max(other.demands_error);
+        self.worst = worse(self.worst.take(), other.worst.clone());
     }
 }
 
@@ -105,6 +117,10 @@ pub(super) struct Notes {
 /// The key of that measure.
 pub(super) const MEASURE_KEY: &str = "slipstick.measure";
 
+/// The keys of the worst row: what it is called, the figure or demand, and its size.
+const WORST_KEYS: [&str; 3] =
+    ["slipstick.worst_run", "slipstick.worst_figure", "slipstick.worst_error"];
+
 impl Notes {
     fn to_pairs(&self) -> Vec<(&'static str, String)> {
         let number = |value: f64| format!("{value:?}");
@@ -121,7 +137,11 @@ impl Notes {
             ("slipstick.energy_balance_error", number(self.checks.energy_balance_error)),
             ("slipstick.demands_error", number(self.checks.demands_error)),
         ];
-        pairs.into_iter().chain(measure).collect()
+        let worst = self.checks.worst.iter().flat_map(|worst| {
+            let texts = [worst.run.clone(), worst.what.clone(), number(worst.error)];
+            WORST_KEYS.into_iter().zip(texts)
+        });
+        pairs.into_iter().chain(worst).chain(measure).collect()
     }
 
     /// Those of a file.
@@ -148,10 +168,17 @@ impl Notes {
                 friction_excess: number("slipstick.friction_excess")?,
                 energy_balance_error: number("slipstick.energy_balance_error")?,
                 demands_error: number("slipstick.demands_error")?,
+                worst: worst_of(table),
             },
             measure: table.note(MEASURE_KEY).map(str::to_owned),
         })
     }
+}
+
+/// The worst row that a file names; none where an older version wrote it.
+fn worst_of(table: &Table) -> Option<Worst> {
+    let [run, what, error] = WORST_KEYS.map(|key| table.note(key));
+    Some(Worst { run: run?.to_owned(), what: what?.to_owned(), error: error?.parse().ok()? })
 }
 
 /// A table in the making with the notes of its file.
@@ -185,4 +212,37 @@ pub(super) struct PartFile {
     pub notes: Notes,
     /// SHA-256 of the file.
     pub sha256: String,
+}
+
+#[cfg(test)]
+mod tests {
+    use slipstick::table::Kind;
+
+    use super::*;
+
+    /// What a part says of its rows is read back; of an older version, which names no worst row, as well.
+    #[test]
+    fn notes_are_read_back_of_older_parts_too() {
+        let path = std::env::temp_dir().join(format!("slipstick-notes-{}", std::process::id()));
+        let named =
+            Worst { run: "run 17".to_owned(), what: "sliding_path_m".to_owned(), error: 2e-13 };
+        for worst in [Some(named), None] {
+            let checks = Checks { rows: 3, demands_error: 2e-13, worst, ..Checks::default() };
+            let notes = Notes {
+                id: "ab".to_owned(),
+                runs: 500,
+                first: 0,
+                rows: 500,
+                failures: 2,
+                checks,
+                measure: None,
+            };
+            let fields = [Field { kind: Kind::Count, ..Field::text("run") }];
+            let cells = [Cells::Counts((0..500).map(Some).collect())];
+            std::fs::write(&path, sealed(&fields, &notes, &cells).unwrap()).unwrap();
+            let read = Notes::of(&Table::of(&path).unwrap());
+            std::fs::remove_file(&path).unwrap();
+            assert_eq!(read.unwrap(), notes);
+        }
+    }
 }

@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 
 use slipstick::input::plan::{Levels, Plan};
 
-use super::part::{MEASURE_KEY, part_of_name};
+use slipstick::study::Certified;
+
+use super::part::{MEASURE_KEY, Notes, part_of_name};
 use super::parts::MANIFEST;
 use crate::error::FileError;
 use crate::globs::expand;
@@ -48,7 +50,18 @@ pub fn read_runs(files: &[PathBuf]) -> Result<ReadTable, FileError> {
         let rows = read.table.rows();
         read.table.texts(MEASURE, vec![measure; rows]);
     }
+    read.certified = certified(files);
     Ok(read)
+}
+
+/// How many of the runs in the files of a study were certified; none where one of them does not say so.
+fn certified(files: &[PathBuf]) -> Option<Certified> {
+    let mut all = Certified::default();
+    for file in files {
+        let notes = Notes::of(&Table::of(file).ok()?).ok()?;
+        all.join(notes.checks.certified(notes.rows));
+    }
+    Some(all)
 }
 
 /// What the records of a study were scaled to: from the file itself, else from the manifest that stands beside the

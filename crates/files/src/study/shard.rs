@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 
 use slipstick::error::Stopped;
 use slipstick::input::plan::Levels;
+use slipstick::study::Row;
 use slipstick::study::engine::Engine;
-use slipstick::study::{Row, Verdict};
 
 use super::part::{self, Checks, Notes, part_count, part_name, rows_of};
 use super::parts::{Damaged, PARTS, PartsFound, find, refuse_old_layout, remove_leftovers};
@@ -181,15 +181,15 @@ impl OpenStudy {
 
     /// Runs some rows again, alone and with their histories.
     fn check(&self, rows: &[Row], engine: &Engine<'_>) -> Result<Checks, StudyError> {
-        let checked: Vec<&Row> = rows.iter().filter(|row| self.study.is_checked(row.run)).collect();
+        let checked = self.study.to_certify(rows);
         let mut checks = Checks::default();
         let verdicts = engine.map(checked.len(), |i| Ok(self.study.verify(checked[i])))?;
         for (row, verdict) in checked.iter().zip(verdicts) {
-            checks.add(&verdict);
+            checks.add(row.run, &verdict);
             if !verdict.holds() {
                 return Err(StudyError::CheckFailed {
                     run: row.run,
-                    what: what_failed(&verdict),
+                    what: verdict.what_failed(),
                     repeat: self.repeat(row.run)?,
                 });
             }
@@ -212,20 +212,6 @@ fn notices(found: &PartsFound, wanted: &Range<u64>, count: u64) -> Vec<String> {
         format!("{}: {reason}; {what}", shown(path))
     });
     damaged.chain(found.strays.iter().map(|path| stray(path))).collect()
-}
-
-fn what_failed(verdict: &Verdict) -> String {
-    if !verdict.same {
-        return "run again alone it came out differently".to_owned();
-    }
-    format!(
-        "equilibrium residual {:e}, friction excess {:e}, energy balance error {:e}, demands error \
-         {:e}",
-        verdict.equilibrium_residual,
-        verdict.friction_excess,
-        verdict.energy_balance_error,
-        verdict.demands_error
-    )
 }
 
 /// Time that a shard may take in the pool that this is called in, from runs spread over it that are

@@ -552,15 +552,15 @@ def fragility(
     ['level', 'probability', 'band_low', 'band_high']
     """
     asked = given("fragility", locals())
-    known = None
+    known = certified = None
     if isinstance(source, Assessment):
         known, table = source.summary.get("limit"), source.table._core
     elif isinstance(source, (str, PathLike)):
-        table, known = _core.read_runs(Path(source), demand)
+        table, known, certified = _core.read_runs(Path(source), demand)
     else:
         frame = getattr(source, "table", source)
         table = (frame if isinstance(frame, Table) else Table(frame))._core
-    return _told(_core.fit(table, asked, limit=known, jobs=jobs, progress=progress))
+    return _told(_core.fit(table, asked, limit=known, certified=certified, jobs=jobs, progress=progress))
 
 
 def design(

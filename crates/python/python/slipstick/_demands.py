@@ -39,7 +39,8 @@ def demands(
     columns
         The columns that are wanted; all of them if left out.
     check
-        The share of the runs that is run again alone and judged; 0 for none.
+        The share of the runs that is run again alone and judged, the first of each kind of structure and
+        directions besides; 0 for none.
     jobs, progress
         As in ``study``.
 

@@ -243,7 +243,8 @@ class Plotter:
         if spectra is None:
             raise ValueError("expected a response of run(..., floor_spectrum=True), found one without")
         lines = [("table", spectra["table_acceleration_m_per_s2"]), ("block", spectra["block_acceleration_m_per_s2"])]
-        lines += [(f"floor {i}", values) for i, values in enumerate(spectra["storeys_acceleration_m_per_s2"], 1)]
+        called = [label for label, _ in self._points("acceleration_m_per_s2")]
+        lines += list(zip(called, spectra["storeys_acceleration_m_per_s2"]))
         for label, values in lines:
             if values:
                 ax.plot(spectra["period_s"], np.asarray(values) / G, **{"label": label, **kwargs})

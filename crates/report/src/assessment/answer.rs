@@ -33,7 +33,14 @@ pub fn sheet(answer: &Answer, display: DisplayUnits) -> Sheet {
     let sheet = match found {
         Results::Suite { histories, hazard, factors, plan } => {
             let (hazard, factors, plan) = (hazard.as_deref(), *factors, *plan);
-            HistoriesReport { histories, scaled, hazard, factors, plan, display }.sheet()
+            let mut sheet =
+                HistoriesReport { histories, scaled, hazard, factors, plan, display }.sheet();
+            // What was noticed of the request; of its records the histories know more.
+            let told =
+                |notice: &&Notice| !sheet.warnings.iter().any(|known| known.kind == notice.kind);
+            let more: Vec<Notice> = warnings.iter().filter(told).cloned().collect();
+            sheet.warnings.extend(more);
+            sheet
         }
         Results::Spectrum(run) => {
             let records = &names;
@@ -66,7 +73,7 @@ pub fn sheet(answer: &Answer, display: DisplayUnits) -> Sheet {
             display,
         }
         .sheet(),
-        Results::Fragility { demand, limit, confidence, curves } => {
+        Results::Fragility { demand, limit, confidence, curves, .. } => {
             let (limit, confidence) = (*limit, *confidence);
             match curves {
                 Curves::One(run) => {
@@ -88,7 +95,8 @@ pub fn sheet(answer: &Answer, display: DisplayUnits) -> Sheet {
     };
     // A suite's own records have the factors of its runs.
     let suite = if sheet.suite.is_empty() { records.clone() } else { sheet.suite };
-    let mut sheet = Sheet { model_hash: model_hash.clone(), suite, ..sheet };
+    let sheet = Sheet { model_hash: model_hash.clone(), suite, ..sheet };
+    let mut sheet = sheet.certified(found.certified());
     Notice::sort(&mut sheet.warnings);
     sheet
 }
@@ -113,7 +121,7 @@ pub fn tables(answer: Answer) -> Vec<Tabled> {
         Results::Design { run, .. } => {
             vec![tabled("front", BOTH, run.front), tabled("runs", &BOTH[1..], run.runs)]
         }
-        Results::Fragility { demand, limit, confidence, curves } => {
+        Results::Fragility { demand, limit, confidence, curves, .. } => {
             let display = DisplayUnits::Si;
             let (name, demand) = (&answer.name[..], &demand[..]);
             let mut table = Table::default();

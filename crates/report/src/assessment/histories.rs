@@ -246,10 +246,10 @@ impl HistoriesReport<'_> {
                 of.collect()
             }
         };
-        let mut names: Vec<&str> = Vec::new();
-        for on in models.iter().flat_map(|model| &model.records) {
-            if !names.contains(&on.record.as_str()) {
-                names.push(&on.record);
+        let mut names: Vec<(&str, usize)> = Vec::new();
+        for name in models.iter().flat_map(|model| numbered(&model.records)).map(|(name, _)| name) {
+            if !names.contains(&name) {
+                names.push(name);
             }
         }
         let shown = |value: Option<f64>| cell(unit.of(value.unwrap_or(f64::NAN)));
@@ -260,7 +260,7 @@ impl HistoriesReport<'_> {
         for name in &names {
             let of = |(_, of): &Shown<'_>| {
                 let (model, column, bound) = (*of)?;
-                let on = model.records.iter().find(|on| on.record == **name)?;
+                let on = numbered(&model.records).find(|(other, _)| other == name)?.1;
                 Some(on.size(&column, bound))
             };
             let values: Vec<Option<f64>> = columns.iter().map(of).collect();
@@ -273,7 +273,7 @@ impl HistoriesReport<'_> {
                 Some(most) if *value == Some(most) => format!("{}*", shown(*value)),
                 _ => shown(*value),
             };
-            rows.push(row(name, &mut values.iter().map(value)));
+            rows.push(row(name.0, &mut values.iter().map(value)));
         }
         if names.len() > 1 {
             let mut statistics: Vec<&str> = models.iter().map(ModelHistories::statistic).collect();
@@ -330,14 +330,17 @@ impl HistoriesReport<'_> {
     /// The records under their factors, each once.
     fn recorded(&self) -> Vec<Recorded> {
         let mut all: Vec<Recorded> = Vec::new();
-        for on in self.histories.models.iter().flat_map(|model| &model.records) {
-            let known = |seen: &&mut Recorded| seen.name == on.record;
-            if let Some(seen) = all.iter_mut().find(known) {
+        let mut names: Vec<(&str, usize)> = Vec::new();
+        let of_models = self.histories.models.iter();
+        for (name, on) in of_models.flat_map(|model| numbered(&model.records)) {
+            if let Some(place) = names.iter().position(|known| *known == name) {
+                let seen = &mut all[place];
                 let new = on.notices.iter().filter(|notice| !seen.notices.contains(notice));
                 let new: Vec<Notice> = new.cloned().collect();
                 seen.notices.extend(new);
                 continue;
             }
+            names.push(name);
             all.push(Recorded {
                 name: on.record.clone(),
                 origin: on.origin.clone(),
@@ -498,6 +501,14 @@ impl HistoriesReport<'_> {
             ("lateral_force", Json::List(lateral.collect())),
         ]
     }
+}
+
+/// The records of a model, each with its name and how many before it share that: two records of one name are two.
+fn numbered(records: &[OnRecord]) -> impl Iterator<Item = ((&str, usize), &OnRecord)> {
+    records.iter().enumerate().map(|(i, on)| {
+        let before = records[..i].iter().filter(|other| other.record == on.record).count();
+        ((&on.record[..], before), on)
+    })
 }
 
 fn method() -> Vec<String> {

@@ -5,7 +5,7 @@ use std::fmt::Display;
 use slipstick::assessment::FailedRun;
 use slipstick::assessment::suite::Recorded;
 use slipstick::notice::{Notice, NoticeKind};
-use slipstick::study::travel_used_up;
+use slipstick::study::{Certified, travel_used_up};
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 
 use crate::VERSION;
@@ -17,7 +17,7 @@ use crate::laboratory::text::{aligned, field};
 use crate::markup::Markup;
 use crate::markup::shortened;
 use crate::report::Provenance;
-use crate::summary::keys::{listed, suite};
+use crate::summary::keys::{certified_keys, listed, suite};
 
 /// A heading and a table: the first row are heads, the first column names.
 pub type Table = (String, Vec<Vec<String>>);
@@ -63,6 +63,8 @@ pub struct Sheet {
     pub method: Vec<String>,
     /// Sections that the page has besides, and what stands first in its appendix.
     pub(crate) laid_out: [Markup; 2],
+    /// How many of its runs were certified; none where that is not known.
+    pub certified: Option<Certified>,
     /// Whether every run has an answer whose certificate holds, and what was looked for is found.
     pub complete: bool,
     /// What `--json` prints between the version and the warnings.
@@ -70,6 +72,25 @@ pub struct Sheet {
 }
 
 impl Sheet {
+    /// The same with what came of certifying some of its runs: what the check does not confirm is said first, and
+    /// with it the answer is not complete.
+    #[must_use]
+    pub fn certified(mut self, certified: Option<Certified>) -> Self {
+        let refusal = certified.as_ref().and_then(Certified::refusal);
+        let is_said = self.warnings.iter().any(|known| known.kind == NoticeKind::CheckFailed);
+        if let Some(notice) = certified.as_ref().and_then(Certified::notice).filter(|_| !is_said) {
+            self.warnings.insert(0, notice);
+        }
+        if let Some(refusal) = refusal {
+            (self.failed, self.complete) = (true, false);
+            if !is_said {
+                self.verdict.insert(0, format!("{refusal}."));
+            }
+        }
+        self.certified = certified;
+        self
+    }
+
     /// The result as plain text for a terminal.
     #[must_use]
     pub fn to_text(&self) -> String {
@@ -81,6 +102,9 @@ impl Sheet {
         let named = if self.named.is_empty() { "Model" } else { self.named };
         text.push_str(&field(named, &format!("{}{}", self.name, hash.collect::<String>())));
         text.push_str(&field("Analysis", &format!("{}. {}", self.kind, self.line)));
+        if let Some(certified) = &self.certified {
+            text.push_str(&field("Checked", &format!("{certified}.")));
+        }
         for (heading, rows) in &self.tables {
             text.push_str(&format!("\n{heading}\n"));
             text.push_str(&aligned(rows));
@@ -110,6 +134,9 @@ impl Sheet {
         let mut keys = vec![("slipstick", VERSION.into())];
         keys.extend(self.model_hash.iter().map(|hash| ("model_hash", hash.as_str().into())));
         keys.extend(self.json.iter().cloned());
+        if let Some(certified) = &self.certified {
+            keys.push(("certified", certified_keys(certified)));
+        }
         if !self.suite.is_empty() {
             keys.push(("suite", suite(&self.suite)));
         }
@@ -177,9 +204,12 @@ impl Sheet {
         let warnings: Vec<_> = of_runs.zip(&self.warnings).collect();
         warning_list(&mut body, &warnings, self.display);
         self.answers(&mut body);
-        if !self.method.is_empty() {
+        let certified =
+            self.certified.iter().map(|certified| format!("Certificates: {certified}."));
+        let method: Vec<String> = certified.chain(self.method.iter().cloned()).collect();
+        if !method.is_empty() {
             body.raw("<section>\n<h2>Method and limits</h2>\n<ul>\n");
-            for line in &self.method {
+            for line in &method {
                 body.element("li", line).raw("\n");
             }
             body.raw("</ul>\n</section>\n");

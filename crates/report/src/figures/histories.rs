@@ -3,7 +3,7 @@
 use slipstick::response::{Demands, StoreyDemands};
 
 use super::trace::Trace;
-use super::{Drawn, Scene, shown_note, shown_storeys};
+use super::{Drawn, Scene, drifts_title, shown_note, shown_storeys};
 use crate::assessment::lines::{over_x, panel};
 use crate::display::{Quantity, Unit};
 use crate::markup::shortened;
@@ -133,9 +133,12 @@ pub fn accelerations(scene: &Scene) -> Drawn {
         "Total accelerations, each on its own scale. {SHADING} While the block sticks it moves with \
          the ground; while it slides only friction, spring and structure drive it, which caps its \
          acceleration.{}",
-        shown_note(&shown, history.point_count())
+        shown_note(&shown, history.point_count(), names)
     );
-    let title = "Accelerations of ground, block and storeys over time";
+    let title = match names.points.is_empty() {
+        true => "Accelerations of ground, block and storeys over time",
+        false => "Accelerations of ground, block and points over time",
+    };
     over_time(scene, ("accelerations", title), panels, caption)
 }
 
@@ -181,8 +184,9 @@ pub fn drifts(scene: &Scene) -> Option<Drawn> {
              relative to the block)."
         }
     };
-    let caption = format!("{what} {SHADING}{}", shown_note(&shown, history.point_count()));
-    Some(over_time(scene, ("drifts", "Storey drifts over time"), panels, caption))
+    let note = shown_note(&shown, history.point_count(), &report.summary.names);
+    let caption = format!("{what} {SHADING}{note}");
+    Some(over_time(scene, ("drifts", drifts_title(&report.summary.names)), panels, caption))
 }
 
 /// A figure of panels one above the other, shaded where the block slides.

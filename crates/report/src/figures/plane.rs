@@ -6,7 +6,7 @@ use slipstick::response::{Demands, History, HistoryAlongY};
 
 use super::histories::{SHADING, history_panel, of_points, over_time};
 use super::trace::Trace;
-use super::{Drawn, Scene, shown_note, shown_storeys};
+use super::{Drawn, Scene, drifts_title, shown_note, shown_storeys};
 use crate::assessment::lines::{laid, line, panel};
 use crate::display::{Quantity, Unit};
 use crate::markup::shortened;
@@ -147,9 +147,12 @@ fn accelerations(scene: &Scene, y: &HistoryAlongY) -> Drawn {
     }
     let caption = format!(
         "Total accelerations along x and along y, each on its own scale. {SHADING}{}",
-        shown_note(&shown, y.point_count(x))
+        shown_note(&shown, y.point_count(x), names)
     );
-    let title = "Accelerations of ground, block and storeys over time";
+    let title = match names.points.is_empty() {
+        true => "Accelerations of ground, block and storeys over time",
+        false => "Accelerations of ground, block and points over time",
+    };
     over_time(scene, ("accelerations", title), panels, caption)
 }
 
@@ -181,9 +184,10 @@ fn drifts(scene: &Scene, y: &HistoryAlongY) -> Option<Drawn> {
              below (storey 1: relative to the block)."
         }
     };
-    let caption = format!("{what} {SHADING}{}", shown_note(&shown, y.point_count(x)));
+    let note = shown_note(&shown, y.point_count(x), &report.summary.names);
+    let caption = format!("{what} {SHADING}{note}");
     (!panels.is_empty())
-        .then(|| over_time(scene, ("drifts", "Storey drifts over time"), panels, caption))
+        .then(|| over_time(scene, ("drifts", drifts_title(&report.summary.names)), panels, caption))
 }
 
 fn storey_peaks(scene: &Scene, of: fn(&slipstick::response::StoreyDemands) -> f64) -> Vec<f64> {

@@ -50,11 +50,12 @@ pub fn floors(report: &Report, spectra: &FloorSpectra) -> Option<Drawn> {
         230.0,
         series,
     );
+    let place = if names.points.is_empty() { "floor" } else { "point of the structure" };
     let caption = format!(
         "Floor response spectra: largest total acceleration of a light oscillator with {} % damping \
-         fixed to the block or a floor, over its period. For equipment, read its own period.{}",
+         fixed to the block or a {place}, over its period. For equipment, read its own period.{}",
         printed(100.0 * spectra.damping_ratio, 2),
-        shown_note(&shown, peaks.len())
+        shown_note(&shown, peaks.len(), names)
     );
     Some(single("floor-spectra", "Floor response spectra", caption, panel))
 }

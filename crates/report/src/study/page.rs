@@ -2,7 +2,7 @@
 
 use slipstick::notice::{Notice, NoticeKind};
 use slipstick::response::DemandColumn;
-use slipstick::study::{LevelSummary, Study, StudySummary};
+use slipstick::study::{Certified, LevelSummary, Study, StudySummary};
 
 use super::{level, level_number, level_unit, said, shown};
 use crate::assessment::lines::{BAND, FRACTILES, GROUPS, band, line, panel, stacked};
@@ -22,8 +22,8 @@ pub struct StudyReport<'a> {
     pub study: &'a Study,
     /// Its figures.
     pub summary: &'a StudySummary,
-    /// Rows that were run again alone and judged.
-    pub checked: u64,
+    /// How many rows were run again alone and judged.
+    pub certified: &'a Certified,
     /// What was noticed.
     pub notices: &'a [String],
     /// Units to show results in.
@@ -63,6 +63,7 @@ impl StudyReport<'_> {
             json: self.json(),
             ..Sheet::default()
         }
+        .certified(Some(self.certified.clone()))
     }
 
     /// The rows of a demand that have values.
@@ -324,17 +325,13 @@ impl StudyReport<'_> {
             "Quantiles are exact, over all records and samples of a level, and linear between \
              neighbours of the sorted values; failed runs are left out."
                 .to_owned(),
-            match self.checked {
-                0 => {
-                    "No run was run again alone and judged: slipstick study does so with one of a \
-                      thousand."
-                        .to_owned()
-                }
-                checked => format!(
-                    "{} of {} runs were run again alone: the same bits, and a certificate that holds.",
-                    count(checked),
-                    count(self.study.runs())
-                ),
+            match self.certified.certified {
+                0 => "No run was run again alone and judged: slipstick study does so with one of a thousand and \
+                      the first of each kind."
+                    .to_owned(),
+                _ => "One run of a thousand and the first of each kind of structure and directions were run \
+                      again alone: the same bits, and a certificate that holds."
+                    .to_owned(),
             },
         ];
         if self.study.has_bounds() {

@@ -10,6 +10,7 @@ use slipstick::response::{
 
 use slipstick::input::Names;
 use slipstick::record::Origin;
+use slipstick::study::{Certified, Worst};
 
 use super::{Checks, Summary, method_name};
 use crate::json::Json;
@@ -108,6 +109,32 @@ fn origin_keys(origin: &Origin) -> Vec<(&'static str, Json)> {
         keys.push(("azimuth_y_deg", y.azimuth_deg.into()));
     }
     keys
+}
+
+/// How many runs of an answer were certified, and which of them was the worst.
+pub(crate) fn certified_keys(certified: &Certified) -> Json {
+    let refused = certified.unconfirmed.iter().map(|refused| {
+        Json::Object(vec![
+            ("run", refused.run.as_str().into()),
+            ("what", refused.what.as_str().into()),
+        ])
+    });
+    Json::Object(vec![
+        ("runs", certified.runs.into()),
+        ("certified", certified.certified.into()),
+        ("worst", certified.worst.as_ref().map_or(Json::Null, worst_keys)),
+        ("unconfirmed", Json::List(refused.collect())),
+    ])
+}
+
+/// The worst of certified runs: what it is called, the figure or demand, and its size.
+#[must_use]
+pub fn worst_keys(worst: &Worst) -> Json {
+    Json::Object(vec![
+        ("run", worst.run.as_str().into()),
+        ("what", worst.what.as_str().into()),
+        ("error", worst.error.into()),
+    ])
 }
 
 /// The records that an answer is of, each with what its file says and what reading it gave notice of.

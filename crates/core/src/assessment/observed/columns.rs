@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use crate::assessment::{AssessmentError, ChoiceError, refuse};
 use crate::error::{CellError, UnitError, similar};
+use crate::study::cases::HOLDS;
 use crate::table::{Cells, Column, Table};
 use crate::units::{Dimension, Unit, parse_unit};
 
@@ -128,6 +129,14 @@ impl<'a> Columns<'a> {
             }),
         };
         texts.iter().enumerate().map(number).collect()
+    }
+
+    /// Whether the check confirms the run of each row: 1 where it does, 0 where it does not, NaN where it was not
+    /// asked; none where the table has no such column of flags.
+    pub(super) fn holds(self) -> Option<Vec<f64>> {
+        let holds = self.numbers_or_nan(HOLDS).ok()?;
+        let is_flag = |flag: &f64| flag.is_nan() || *flag == 0.0 || *flag == 1.0;
+        holds.iter().all(is_flag).then_some(holds)
     }
 
     /// A column of whole numbers ≥ 0.

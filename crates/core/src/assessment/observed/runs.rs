@@ -174,7 +174,12 @@ fn demanded(columns: Columns<'_>, demand: &str) -> Result<Vec<Demanded>, Assessm
     };
     let known = |travel_m: f64| (!travel_m.is_nan()).then_some(travel_m);
     let of = |(size, travel_m)| Demanded::of(demand, size, known(travel_m));
-    Ok(sizes.zip(used_up).map(of).collect())
+    let mut demands: Vec<Demanded> = sizes.zip(used_up).map(of).collect();
+    // What the check does not confirm is no answer.
+    for (demand, holds) in demands.iter_mut().zip(columns.holds().unwrap_or_default()) {
+        *demand = if holds == 0.0 { Demanded::Unknown } else { *demand };
+    }
+    Ok(demands)
 }
 
 /// How many runs have no answer, and what they count as.

@@ -6,6 +6,8 @@ use slipstick::model::{Block, Contents, Damping, Frame, Model};
 use slipstick::motion::GroundMotion;
 use slipstick::response::{Demands, EventKind, History, Mode, Response};
 use slipstick::slider::{Bearing, Direction, Ends, Friction, RateCurve, RateLaw, SurfacesInSeries};
+use slipstick::solver;
+use slipstick::study::Verdict;
 
 /// A tampered figure must stand above this.
 const SHOWS: f64 = 1e-9;
@@ -14,6 +16,26 @@ const SHOWS: f64 = 1e-9;
 fn must_show(system: &System, history: &History, what: &str) {
     let c = judge(system, history);
     assert!(worst(&c) > SHOWS, "{}: {what} went unnoticed: {}", system.name, figures(&c));
+}
+
+/// What a study says of a row whose check fails names the demand, and the bound that it passes.
+#[test]
+fn the_message_of_a_failing_row_names_its_demand() {
+    let model = Model::builder().block("124 kg").friction(0.2, 0.15).build().expect("a model");
+    let motion = GroundMotion::new(vec![0.0, 0.5, 0.5, 1.5], vec![4.0, 4.0, 0.0, 0.0], None);
+    let motion = motion.expect("a motion");
+    let mut response = solver::exact(&model, &motion).expect("a response");
+    let right = Verdict::of(&check(&model, &motion, &response), true);
+    assert!(right.holds() && right.defects.is_empty(), "{right:?}");
+    response.demands.sliding_path_m *= 1.01;
+    let wrong = Verdict::of(&check(&model, &motion, &response), true);
+    let what = "demands error of sliding_path_m";
+    assert!(!wrong.holds() && wrong.what_failed().starts_with(what), "{wrong:?}");
+    assert!(wrong.what_failed().ends_with("above the bound 1.0e-10"), "{wrong:?}");
+    assert_eq!(wrong.largest.map(|(name, _)| name).as_deref(), Some(what));
+    // What came out differently and holds has no demand.
+    let other = Verdict { same: false, ..right };
+    assert_eq!(other.what_failed(), "run again alone it came out differently");
 }
 
 /// Plain ones, those of long samples, those with devices.
