@@ -33,6 +33,11 @@ def pulse() -> ss.Motion:
     return ss.Motion([0.0, 0.2, -0.2, 0.0], dt=0.5, units="g")
 
 
+def quick_pulse() -> ss.Motion:
+    """The same with steps that nothing is noticed of."""
+    return ss.Motion([0.0, 0.2, -0.2, 0.0], dt=0.1, units="g")
+
+
 def suite() -> dict[str, ss.Motion]:
     records = EXAMPLES / "records"
     return ss.read_suite([records / "taft-*.txt", records / "el-centro-180.txt"], units="g", dt=0.01)

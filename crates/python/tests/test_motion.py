@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import slipstick as ss
-from support import EXAMPLES, block, pulse, suite
+from support import EXAMPLES, block, pulse, quick_pulse, suite
 
 G = 9.80665
 
@@ -143,12 +143,12 @@ def test_responses_in_two_directions() -> None:
 def test_what_a_result_is_worth_comes_first() -> None:
     model = block().with_({"slider.gap": "1 mm"})
     with pytest.warns(ss.SlipstickWarning, match="gap") as caught:
-        response = ss.run(model, pulse())
+        response = ss.run(model, quick_pulse())
     assert [warning.filename for warning in caught] == [__file__]
     assert repr(response).startswith("<slipstick.Response holds; severe: gap exceeded; ")
     page = response._repr_html_()
     assert page.startswith("<p><b>The certificate holds</b></p><p><b>Severe:</b> ")
-    quiet = ss.run(block(), pulse())
+    quiet = ss.run(block(), quick_pulse())
     assert repr(quiet) == "<slipstick.Response holds; 'model', 2 events>"
     found = ss.suite(block(), {"a": ss.Motion([0.1, -0.1, 0.1], dt=0.05, units="g")})
     assert repr(found).startswith("<slipstick.Assessment warning: ") and "first sample not zero" in repr(found)

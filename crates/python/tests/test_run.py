@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import slipstick as ss
-from support import EXAMPLES, block, pulse
+from support import EXAMPLES, block, pulse, quick_pulse
 
 
 def taft() -> tuple[ss.Model, ss.Motion]:
@@ -59,7 +59,7 @@ def test_severe_warnings_come_without_history_too() -> None:
 
 
 def test_a_call_costs_little_beside_the_analysis() -> None:
-    model, motion = block(), pulse()
+    model, motion = block(), quick_pulse()
     beyond = []
     for _ in range(2000):
         start = time.perf_counter()

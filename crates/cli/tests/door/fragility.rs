@@ -312,17 +312,16 @@ fn levels_keep_their_measure() {
         let expected = "--measure: expected Sa(0.45 s), of which the levels of study/parts/";
         assert!(refused.starts_with(expected), "{refused}");
     }
-    // A part without its study does not say what its levels are of.
+    // A part says what its levels are of without its study too.
     let parts = folder.names("study/parts");
     std::fs::create_dir(folder.path().join("alone")).unwrap();
     let part = folder.path().join("study/parts").join(&parts[0]);
     std::fs::copy(part, folder.path().join("alone/rows.parquet")).unwrap();
-    for more in [&[][..], &["--measure", "Sa(0.7 s)"]] {
-        let refused =
-            folder.refused(&[&["fragility", "alone/rows.parquet"], &common[..], more].concat());
-        let expected = "--measure: expected a measure that alone/rows.parquet has a column of";
-        assert!(refused.starts_with(expected), "{refused}");
-    }
+    let alone = [&["fragility", "alone/rows.parquet"], &common[..]].concat();
+    assert_eq!(json(&folder, &alone)["measure"], "Sa(0.45 s)");
+    let refused = folder.refused(&[&alone[..], &["--measure", "Sa(0.7 s)"]].concat());
+    let expected = "--measure: expected Sa(0.45 s), of which the levels of alone/rows.parquet";
+    assert!(refused.starts_with(expected), "{refused}");
     // Counts whose table does not say it need the option.
     folder.write("stripes.csv", "level [g],runs,exceeded\n0.2,11,1\n0.4,11,4\n0.8,11,10\n");
     let refused = folder.refused(&["fragility", "stripes.csv"]);

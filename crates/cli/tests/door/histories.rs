@@ -231,7 +231,14 @@ fn pairs_at_once_are_models_with_two_records() {
     let (zero, alone) = (folder.read("zero/runs.csv"), folder.read("alone/runs.csv"));
     let heads = alone.lines().next().unwrap().split(',').filter(|head| *head != "record");
     for head in heads {
-        assert_eq!(column(&zero, head), column(&alone, head), "{head}");
+        let (of_two, of_one) = (column(&zero, head), column(&alone, head));
+        if head == "residual_sliding_displacement_m" {
+            // In two directions it is a length.
+            let length = |cell: &String| cell.trim_start_matches('-').to_owned();
+            assert_eq!(of_two, of_one.iter().map(length).collect::<Vec<_>>());
+        } else {
+            assert_eq!(of_two, of_one, "{head}");
+        }
     }
 }
 

@@ -216,7 +216,7 @@ def suite(
     >>> model = ss.Model({"block.mass": "325 kg", "slider.static_friction": 0.06,
     ...                   "slider.kinetic_friction": 0.05, "slider.radius": "2 m"})
     >>> records = {name: ss.Motion([0.0, 0.3, -0.3, 0.0], dt=dt, units="g")
-    ...            for name, dt in [("short", 0.2), ("middle", 0.25), ("long", 0.3)]}
+    ...            for name, dt in [("short", 0.08), ("middle", 0.09), ("long", 0.1)]}
     >>> found = ss.suite(model, records, scale_to="0.2 g")
     >>> len(found.table), found.tables["governing"].columns[:3]
     (3, ['model', 'friction', 'statistic'])
@@ -300,7 +300,7 @@ def spectrum(
     >>> model = ss.Model({"block.mass": "325 kg", "slider.static_friction": 0.06,
     ...                   "slider.kinetic_friction": 0.05, "slider.radius": "2 m"})
     >>> records = {name: ss.Motion([0.0, 0.3, -0.3, 0.0], dt=dt, units="g")
-    ...            for name, dt in [("short", 0.2), ("middle", 0.25), ("long", 0.3)]}
+    ...            for name, dt in [("short", 0.08), ("middle", 0.09), ("long", 0.1)]}
     >>> found = ss.spectrum(model, records, {"slider.radius": "1..3 m:3"})
     >>> len(found.tables["runs"])
     9
@@ -479,7 +479,7 @@ def ida(
     >>> model = ss.Model({"block.mass": "325 kg", "slider.static_friction": 0.06,
     ...                   "slider.kinetic_friction": 0.05, "slider.radius": "2 m"})
     >>> records = {name: ss.Motion([0.0, 0.3, -0.3, 0.0], dt=dt, units="g")
-    ...            for name, dt in [("short", 0.2), ("middle", 0.25), ("long", 0.3)]}
+    ...            for name, dt in [("short", 0.08), ("middle", 0.09), ("long", 0.1)]}
     >>> found = ss.ida(model, records, scale_to="0.1..0.4 g:4", limit="50 mm")
     >>> len(found.table), len(found.tables["capacities"])
     (12, 3)
@@ -545,7 +545,7 @@ def fragility(
     >>> model = ss.Model({"block.mass": "325 kg", "slider.static_friction": 0.06,
     ...                   "slider.kinetic_friction": 0.05, "slider.radius": "2 m"})
     >>> records = {name: ss.Motion([0.0, 0.3, -0.3, 0.0], dt=dt, units="g")
-    ...            for name, dt in [("short", 0.2), ("middle", 0.25), ("long", 0.3)]}
+    ...            for name, dt in [("short", 0.08), ("middle", 0.09), ("long", 0.1)]}
     >>> ida = ss.ida(model, records, scale_to="0.1..0.6 g:11", limit="50 mm")
     >>> curve = ss.fragility(ida)
     >>> curve.table.columns
@@ -635,7 +635,7 @@ def design(
     >>> model = ss.Model({"block.mass": "325 kg", "slider.static_friction": 0.06,
     ...                   "slider.kinetic_friction": 0.05, "slider.radius": "2 m"})
     >>> records = {name: ss.Motion([0.0, 0.3, -0.3, 0.0], dt=dt, units="g")
-    ...            for name, dt in [("short", 0.2), ("middle", 0.25), ("long", 0.3)]}
+    ...            for name, dt in [("short", 0.08), ("middle", 0.09), ("long", 0.1)]}
     >>> found = ss.design(model, records, {"slider.radius": "1..3 m:3"}, friction="0.04..0.1:4",
     ...                   gap="60 mm", sensitivity=0)
     >>> list(found.tables)
