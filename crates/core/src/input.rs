@@ -16,6 +16,7 @@ mod frame;
 mod json;
 mod json_schema;
 mod keys;
+pub(crate) mod kind;
 pub mod loaded;
 mod mapping;
 mod modal;

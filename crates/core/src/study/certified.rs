@@ -10,7 +10,7 @@ use core::fmt;
 use super::records::Record;
 use crate::check::Certificate;
 use crate::input::Parts;
-use crate::model::{Model, StopKind};
+use crate::input::kind::ModelKind;
 use crate::motion::GroundMotion;
 use crate::notice::{Notice, NoticeKind};
 use crate::numerics::random::{GOLDEN, mix};
@@ -21,24 +21,10 @@ const EVERY: u64 = 1000;
 /// So few runs are all certified.
 const FEW: usize = 8;
 
-/// What stands on the slider.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum StructureKind {
-    #[default]
-    Rigid,
-    OneStorey,
-    Storeys,
-    Modes,
-}
-
-/// What a run is one of: the structure and its devices, and the directions of its motion.
+/// What a run is one of: the model, and the directions of its motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RunKind {
-    structure: StructureKind,
-    /// Contents, surfaces in series, friction by speed, tilt.
-    has: [bool; 4],
-    /// Whether its stop is rigid, where it has one.
-    rigid_stop: Option<bool>,
+    model: ModelKind,
     /// Whether the table moves along y too, and vertically.
     moves: [bool; 2],
 }
@@ -51,27 +37,7 @@ impl RunKind {
             (None, Some(source)) => [source.key_of_y().is_some(), false],
             (None, None) => [false; 2],
         };
-        Self { moves, ..Self::of_model(&parts.model) }
-    }
-
-    fn of_model(model: &Model) -> Self {
-        let slider = model.slider();
-        Self {
-            structure: match (model.structure().is_some(), model.storeys()) {
-                (true, _) => StructureKind::Modes,
-                (false, 0) => StructureKind::Rigid,
-                (false, 1) => StructureKind::OneStorey,
-                _ => StructureKind::Storeys,
-            },
-            has: [
-                !model.contents().is_empty(),
-                slider.series().is_some(),
-                slider.rate().is_some(),
-                slider.tilt_rad != 0.0,
-            ],
-            rigid_stop: model.stop().map(|stop| matches!(stop.kind, StopKind::Rigid { .. })),
-            moves: [false; 2],
-        }
+        Self { model: ModelKind::of(&parts.model), moves }
     }
 }
 
@@ -273,10 +239,13 @@ pub(crate) fn same_bits(a: &[f64], b: &[f64]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::input::kind::StructureKind;
     use crate::notice::Severity;
 
     fn kind(structure: StructureKind) -> Option<RunKind> {
-        Some(RunKind { structure, ..RunKind::default() })
+        let mut kind = RunKind::default();
+        kind.model.structure = structure;
+        Some(kind)
     }
 
     /// The first of each kind with an answer is certified beside those that are drawn.
