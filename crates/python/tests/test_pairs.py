@@ -164,7 +164,7 @@ def test_a_study_of_motions_in_two_directions_is_that_of_the_command(tmp_path: P
         assert str(list(found.table[name])) == str(list(beside.table[name])), name
     path = ss.Plan(model(), pairs(), vary, **asked).write(tmp_path / "plan")
     command("study", path, "--out", tmp_path / "out", "-q")
-    by_it, _ = ss._core.read_runs(tmp_path / "out", None)
+    by_it, *_ = ss._core.read_runs(tmp_path / "out", None)
     assert by_it[PEAK].tolist() == found.table[PEAK].tolist()
     again = ss.Plan.read(path)
     assert ss.study(again).table[PEAK].tolist() == found.table[PEAK].tolist()

@@ -119,20 +119,27 @@ pub fn condensed<'a>(of: impl IntoIterator<Item = (&'a str, &'a [Notice])>) -> V
     noticed.into_iter().map(told).collect()
 }
 
-/// Gives records of the same name their numbers among those: `a (1)`, `a (2)`.
+/// Gives different motions of the same name their numbers among those: `a (1)`, `a (2)`. One that is there twice, as in
+/// two pairs, is one.
 fn number_alike(records: &mut [Record]) {
-    let names: Vec<String> = records.iter().map(|record| record.name.clone()).collect();
-    let mut taken: BTreeSet<String> = names.iter().cloned().collect();
-    for (i, record) in records.iter_mut().enumerate() {
-        let is_alike = |other: &&String| **other == names[i];
-        if names.iter().filter(is_alike).count() == 1 {
-            continue;
+    let mut taken: BTreeSet<String> = records.iter().map(|record| record.name.clone()).collect();
+    let names: Vec<String> = taken.iter().cloned().collect();
+    for name in names {
+        let mut places: Vec<Vec<usize>> = Vec::new();
+        for (i, record) in records.iter().enumerate().filter(|(_, record)| record.name == name) {
+            match places.iter_mut().find(|same| records[same[0]].motion == record.motion) {
+                Some(same) => same.push(i),
+                None => places.push(vec![i]),
+            }
         }
-        let mut number = 1 + names[..i].iter().filter(is_alike).count();
-        while !taken.insert(format!("{} ({number})", names[i])) {
+        let mut number = 0;
+        for same in places.iter().filter(|_| places.len() > 1) {
             number += 1;
+            while !taken.insert(format!("{name} ({number})")) {
+                number += 1;
+            }
+            same.iter().for_each(|i| records[*i].name = format!("{name} ({number})"));
         }
-        record.name = format!("{} ({number})", names[i]);
     }
 }
 

@@ -15,7 +15,7 @@ True
 >>> [event.kind for event in response.events]
 ['slip', 'reversal']
 >>> round(1e3 * response.summary["residual_sliding_displacement_m"], 2)
-10.51
+0.42
 """
 
 from __future__ import annotations

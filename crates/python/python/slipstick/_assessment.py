@@ -545,8 +545,8 @@ def fragility(
     >>> model = ss.Model({"block.mass": "325 kg", "slider.static_friction": 0.06,
     ...                   "slider.kinetic_friction": 0.05, "slider.radius": "2 m"})
     >>> records = {name: ss.Motion([0.0, 0.3, -0.3, 0.0], dt=dt, units="g")
-    ...            for name, dt in [("short", 0.08), ("middle", 0.09), ("long", 0.1)]}
-    >>> ida = ss.ida(model, records, scale_to="0.1..0.6 g:11", limit="50 mm")
+    ...            for name, dt in [("short", 0.05), ("middle", 0.07), ("long", 0.1)]}
+    >>> ida = ss.ida(model, records, scale_to="0.1..0.6 g:11", limit="10 mm")
     >>> curve = ss.fragility(ida)
     >>> curve.table.columns
     ['level', 'probability', 'band_low', 'band_high']
