@@ -213,7 +213,6 @@ type Counted = (u64, u64, Option<(String, String, f64)>);
 /// A lognormal fragility of a table, of which the limit may be known, and how many of its runs were certified.
 #[pyfunction]
 #[pyo3(signature = (table, given, *, limit = None, certified = None, jobs = None, progress = None))]
-#[expect(clippy::too_many_arguments, reason = "the package calls it")]
 pub(crate) fn fit(
     py: Python<'_>,
     table: &Table,
