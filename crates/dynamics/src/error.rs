@@ -527,7 +527,7 @@ const LISTED: usize = 20;
 ///
 /// ```
 /// let names = (1..=23).map(|n| n.to_string());
-/// assert!(slipstick::error::listed(names).ends_with("19, 20, … (3 more)"));
+/// assert!(slipstick_dynamics::error::listed(names).ends_with("19, 20, … (3 more)"));
 /// ```
 #[must_use]
 pub fn listed(names: impl IntoIterator<Item = String>) -> String {

@@ -162,7 +162,7 @@ mod tests {
     }
 
     fn g(path: PathBuf) -> RecordRequest {
-        RecordRequest { path, units: Units::parse("g"), dt_s: Some(0.5), ..Default::default() }
+        RecordRequest { path, units: Units::parse("g"), dt_s: Some(0.05), ..Default::default() }
     }
 
     fn kinds(loaded: &LoadedMotion) -> Vec<&str> {
@@ -173,7 +173,7 @@ mod tests {
     fn record_with_scale_and_warnings() {
         let path = write("one.txt", "0.1\n-0.4\n0.1\n");
         let loaded = load_record(&g(path.clone())).unwrap();
-        assert_eq!(loaded.description, ["text with one column, 3 values, 0.5 s, g"]);
+        assert_eq!(loaded.description, ["text with one column, 3 values, 0.05 s, g"]);
         assert_eq!(kinds(&loaded), ["first_sample_not_zero", "record_drift"]);
         let sha256 = sha256_hex(b"0.1\n-0.4\n0.1\n");
         assert_eq!(loaded.sources, [SourceFile { path: path.clone(), sha256 }]);
