@@ -33,7 +33,8 @@ pub fn pytest(
     docstrings: Option<&str>,
     tally: &mut Tally,
 ) -> Result<(), Problem> {
-    let mut pytest = package.command("-m pytest -q --no-header --tb=short --numprocesses auto --dist worksteal");
+    let mut pytest =
+        package.command("-m pytest -q --no-header --tb=short --numprocesses auto --dist worksteal");
     pytest.arg(format!("{PACKAGE}/tests"));
     if let Some(folder) = docstrings {
         pytest.arg("--doctest-modules").arg(format!("{PACKAGE}/{folder}"));
