@@ -72,8 +72,8 @@ class Plotter:
             s = 1e3 * _of_axis(knots, "sliding_displacement_m", axis)
             ax.plot(time, s, **{**({"label": _said(axis)} if axis else {}), **kwargs})
             at = int(np.argmax(np.abs(s)))
-            style = {"color": f"C{3 + i}", "label": f"peak{_said(axis, ' ')} {s[at]:.4g} mm"}
-            ax.plot(time[at], s[at], "o", ms=4, **style)
+            peak = f"peak{_said(axis, ' ')} {s[at]:.4g} mm"
+            ax.plot(time[at], s[at], "o", ms=4, color=f"C{3 + i}", label=peak)
         ax.legend(loc="best", frameon=False)
         ax.set(xlabel="time [s]", ylabel="sliding displacement [mm]")
         ax.margins(x=0)
@@ -416,8 +416,8 @@ def draw_fragility(table: Table, summary: Mapping[str, Any], ax: Axes | None = N
     for said, rows in _groups(table, names):
         (line,) = ax.plot(level[rows], table["probability"][rows], **{"label": said or "fitted", **kwargs})
         low, high = table["band_low"][rows], table["band_high"][rows]
-        band = {"alpha": 0.2, "lw": 0.0, "color": line.get_color()}
-        ax.fill_between(level[rows], low, high, **band, label=None if said else _band_of(summary))
+        band = None if said else _band_of(summary)
+        ax.fill_between(level[rows], low, high, alpha=0.2, lw=0.0, color=line.get_color(), label=band)
     ax.set(xlabel=_labelled(str(summary.get("measure", "intensity")), unit), ylabel="probability of exceedance")
     ax.set_ylim(0.0, 1.0)
     ax.legend(loc="best", frameon=False)
