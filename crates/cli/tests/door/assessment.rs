@@ -817,20 +817,7 @@ fn every_answer_says_how_many_of_its_runs_were_certified() {
     let folder = suite("certified", 6);
     let levels = ["--scale-to", "0.5..6 m/s2:12", "--limit", "50 mm"];
     let cases: [(&str, &[&str], u64); 6] = [
-        (
-            "ida",
-            &[
-                "ida",
-                "model.toml",
-                "--records",
-                "records",
-                "--scale-to",
-                "0.5..6 m/s2:12",
-                "--limit",
-                "50 mm",
-            ],
-            72,
-        ),
+        ("ida", &[&["ida", "model.toml", "--records", "records"], &levels[..]].concat(), 72),
         ("hunt", &["ida", "model.toml", "--records", "records"], 0),
         (
             "spectrum",

@@ -30,9 +30,9 @@ use crate::response::{
     DemandColumn, DemandKind, EventKind, InDirections, Method, Response, demand_values,
 };
 use crate::solver;
+use crate::study::Certified;
 use crate::study::cases::{Case, CaseRun, Runs};
 use crate::study::engine::Engine;
-use crate::study::{Certified, Unconfirmed, Worst};
 use crate::table::{Cells, Column, Table};
 
 /// Runs on a record that steps may be made smaller within; of more than 20 keys two more than those that all take.
@@ -126,20 +126,10 @@ impl DerivativeRun {
     #[must_use]
     pub fn certified(&self) -> Certified {
         let mut certified = Certified::of(self.runs);
-        for of in &self.records {
-            let run = || of.name.clone();
-            let worst = of.largest.clone().map(|(what, error)| Worst { run: run(), what, error });
-            let refused = worst.clone().filter(|_| of.holds == Some(false));
-            let refused = refused.map(|Worst { run, what, error }| Unconfirmed {
-                run,
-                what: format!("{what} {error:.1e}"),
-            });
-            certified.join(Certified {
-                runs: 0,
-                certified: u64::from(of.holds.is_some()),
-                worst,
-                unconfirmed: refused.into_iter().collect(),
-            });
+        for of in self.records.iter().filter(|of| of.holds.is_some()) {
+            let refused = of.largest.as_ref().filter(|_| of.holds == Some(false));
+            let defect = refused.map(|(what, error)| format!("{what} {error:.1e}"));
+            certified.add_judged(&of.name, of.largest.clone(), defect);
         }
         certified
     }

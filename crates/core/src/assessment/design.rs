@@ -28,10 +28,10 @@ use crate::numerics::fractile::{held_by, needed, sorted};
 use crate::numerics::sort;
 use crate::numerics::unit_points;
 use crate::response::{Response, demand_values};
-use crate::study::cases::{Case, CaseRun, Runs, holds_column};
+use crate::study::cases::{Case, CaseRun, Runs, add_answers};
 use crate::study::certified::{Certified, same_bits};
 use crate::study::engine::Engine;
-use crate::study::{Demanded, SLIDING, TRAVEL_USED_UP};
+use crate::study::{Demanded, SLIDING};
 use crate::table::Table;
 
 /// What is asked of a design.
@@ -462,11 +462,7 @@ fn rows(
     rows.numbers(SLIDING, "m", displacements);
     let accelerations = all.iter().map(|demand| demand.acceleration_m_per_s2).collect();
     rows.numbers(request.acceleration, "m/s2", accelerations);
-    if request.models.shape().surfaces > 0 {
-        let used_up = ran.iter().map(|ran| ran.travel_used_up_m().unwrap_or(f64::NAN));
-        rows.numbers(TRAVEL_USED_UP, "m", used_up.collect());
-    }
-    rows.columns.push(holds_column(ran));
+    add_answers(&mut rows, ran, request.models.shape().surfaces > 0);
     Ok(rows)
 }
 

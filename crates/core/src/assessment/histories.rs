@@ -20,7 +20,7 @@ use crate::response::{
 };
 use crate::study::cases::{Case, CaseRun, status};
 use crate::study::engine::Engine;
-use crate::study::{Certified, Record, Unconfirmed, Worst};
+use crate::study::{Certified, Record};
 use crate::table::{Cells, Column, Table};
 
 /// From this number of records on their mean governs, of fewer the maximum (ASCE/SEI 7, chapter 17).
@@ -193,7 +193,10 @@ impl ModelHistories {
                     1 => on.record.clone(),
                     _ => format!("{} with {} friction", on.record, bound.name),
                 };
-                certified.join(of_run(name, run));
+                certified.runs += 1;
+                if let Ok(CertifiedRun { largest: largest @ Some(_), defect, .. }) = run {
+                    certified.add_judged(&name, largest.clone(), defect.clone());
+                }
             }
         }
         certified
@@ -286,22 +289,6 @@ impl ModelHistories {
         let all: Vec<(usize, f64)> = all.filter(|_| self.failures().next().is_none()).collect();
         let all = all.into_iter().filter(|(_, value)| !value.is_nan());
         all.reduce(|a, b| if b.1 > a.1 { b } else { a }).map(|(i, _)| i)
-    }
-}
-
-/// That of one run by its name.
-fn of_run(run: String, ran: &Result<CertifiedRun, FailedRun>) -> Certified {
-    let ran = ran.as_ref().ok();
-    let largest = ran.and_then(|ran| ran.largest.clone());
-    let defect = ran.and_then(|ran| ran.defect.clone());
-    Certified {
-        runs: 1,
-        certified: u64::from(largest.is_some()),
-        unconfirmed: defect
-            .map(|what| Unconfirmed { run: run.clone(), what })
-            .into_iter()
-            .collect(),
-        worst: largest.map(|(what, error)| Worst { run, what, error }),
     }
 }
 

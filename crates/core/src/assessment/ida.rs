@@ -18,10 +18,10 @@ use crate::notice::Notice;
 use crate::numerics::fractile;
 use crate::numerics::sort;
 use crate::response::{Response, demand_values};
-use crate::study::cases::{Case, CaseRun, OneThread, holds_column, status};
+use crate::study::cases::{Case, CaseRun, OneThread, add_answers, status};
 use crate::study::certified::{Certified, same_bits};
 use crate::study::engine::Engine;
-use crate::study::{Demanded, Record, TRAVEL_USED_UP};
+use crate::study::{Demanded, Record};
 use crate::table::{Cells, Column, Table};
 
 /// Runs that a hunt on one record is thought to take, for those who wait.
@@ -460,11 +460,7 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
         let of = |ran: &CaseRun<Vec<f64>>| ran.kept.as_ref().map_or(f64::NAN, |values| values[i]);
         rows.numbers(&column.name(), column.unit(), flat.iter().map(of).collect());
     }
-    if models.shape().surfaces > 0 {
-        let used_up = flat.iter().map(|ran| ran.travel_used_up_m().unwrap_or(f64::NAN));
-        rows.numbers(TRAVEL_USED_UP, "m", used_up.collect());
-    }
-    rows.columns.push(holds_column(&flat));
+    add_answers(&mut rows, &flat, models.shape().surfaces > 0);
     rows.texts("status", flat.iter().map(|ran| status(ran.kept.as_ref().err())).collect());
     let by = by.map(|by| (by.to_owned(), by_unit));
     Ok(IdaRun { by, groups, failures, certified, warnings, rows, capacities })

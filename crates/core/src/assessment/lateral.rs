@@ -133,12 +133,15 @@ impl Loop {
         forces.dedup();
         let mut below = 0.0;
         for force in forces {
-            let curved_m = self.curved_m(force);
-            if displacement_m <= curved_m + self.flat_m(below) {
+            let curved_m = self.slid_m(force, true);
+            if displacement_m <= curved_m + self.slid_m(below, false) {
                 return self.between(below, displacement_m);
             }
-            if displacement_m <= curved_m + self.flat_m(force) {
-                return [force, self.area_m(force, displacement_m - curved_m - self.flat_m(below))];
+            if displacement_m <= curved_m + self.slid_m(force, false) {
+                return [
+                    force,
+                    self.area_m(force, displacement_m - curved_m - self.slid_m(below, false)),
+                ];
             }
             below = force;
         }
@@ -147,7 +150,7 @@ impl Loop {
 
     /// Under a force above one at which something starts or ends, and below the next.
     fn between(&self, below: f64, displacement_m: f64) -> [f64; 2] {
-        let (mut radii_m, mut rise_m) = (0.0, displacement_m - self.flat_m(below));
+        let (mut radii_m, mut rise_m) = (0.0, displacement_m - self.slid_m(below, false));
         for surface in &self.surfaces {
             let Some(radius_m) = surface.radius_m else { continue };
             if end_of(surface).is_some_and(|end| end <= below) {
@@ -161,22 +164,10 @@ impl Loop {
         if force.is_finite() { [force, self.area_m(force, 0.0)] } else { [f64::INFINITY, 0.0] }
     }
 
-    /// What surfaces with a radius have slid under a force.
-    fn curved_m(&self, force: f64) -> f64 {
-        self.surfaces
-            .iter()
-            .filter(|surface| surface.radius_m.is_some())
-            .map(|s| slid(s, force))
-            .sum()
-    }
-
-    /// What flat surfaces can have slid under a force.
-    fn flat_m(&self, force: f64) -> f64 {
-        self.surfaces
-            .iter()
-            .filter(|surface| surface.radius_m.is_none())
-            .map(|s| slid(s, force))
-            .sum()
+    /// What surfaces with a radius have slid under a force, or what flat ones can have.
+    fn slid_m(&self, force: f64, has_radius: bool) -> f64 {
+        let alike = self.surfaces.iter().filter(|surface| surface.radius_m.is_some() == has_radius);
+        alike.map(|surface| slid(surface, force)).sum()
     }
 
     /// `4 Σ μ_i u_i`, of flat surfaces that have just begun to slide under this force what is left.

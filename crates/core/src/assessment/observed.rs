@@ -9,8 +9,8 @@ use super::fragility::{Capacity, CloudPoint, Fragility, Stripe};
 use super::{AssessmentError, refuse};
 use crate::error::FitError;
 use crate::notice::{Notice, NoticeKind};
+use crate::study::Certified;
 use crate::study::engine::Engine;
-use crate::study::{Certified, Unconfirmed};
 use crate::table::{Cells, Table};
 
 use columns::Columns;
@@ -242,15 +242,9 @@ pub fn certified(request: &FragilityRequest<'_>) -> Result<Option<Certified>, As
         |name: &str, row: usize| columns.table.texts_of(name).map(|texts| texts[row].clone());
     let mut certified = Certified::of(holds.len() as u64);
     for (row, holds) in holds.into_iter().enumerate().filter(|(_, holds)| !holds.is_nan()) {
-        let refused = (holds == 0.0).then(|| Unconfirmed {
-            run: texts("record", row).unwrap_or_else(|| format!("row {row}")),
-            what: texts("status", row).filter(|status| status != "ok").unwrap_or_default(),
-        });
-        certified.join(Certified {
-            certified: 1,
-            unconfirmed: refused.into_iter().collect(),
-            ..Certified::default()
-        });
+        let run = texts("record", row).unwrap_or_else(|| format!("row {row}"));
+        let said = || texts("status", row).filter(|status| status != "ok").unwrap_or_default();
+        certified.add_judged(&run, None, (holds == 0.0).then(said));
     }
     Ok(Some(certified))
 }

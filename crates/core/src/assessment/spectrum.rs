@@ -13,10 +13,10 @@ use crate::motion::GroundMotion;
 use crate::notice::Notice;
 use crate::numerics::fractile::fractiles;
 use crate::response::{DemandColumn, Response, demand_values};
-use crate::study::cases::{Case, CaseRun, holds_column, status};
+use crate::study::cases::{Case, CaseRun, add_answers, status};
 use crate::study::certified::{Certified, same_bits};
 use crate::study::engine::Engine;
-use crate::study::{Demanded, Record, TRAVEL_USED_UP};
+use crate::study::{Demanded, Record};
 use crate::table::Table;
 
 /// A friction that nothing overcomes: a million times what any motion on Earth asks.
@@ -328,11 +328,7 @@ pub fn run_spectrum(
     for (k, key) in ratio_keys.iter().enumerate() {
         rows.numbers(key, "", (0..runs.len()).map(|run| value(run, columns.len() + k)).collect());
     }
-    if models.shape().surfaces > 0 {
-        let used_up = runs.iter().map(|ran| ran.travel_used_up_m().unwrap_or(nothing));
-        rows.numbers(TRAVEL_USED_UP, "m", used_up.collect());
-    }
-    rows.columns.push(holds_column(&runs));
+    add_answers(&mut rows, &runs, models.shape().surfaces > 0);
     rows.texts("status", runs.iter().map(|ran| status(ran.kept.as_ref().err())).collect());
     Ok(SpectrumRun {
         over: axis.path.clone(),

@@ -132,8 +132,11 @@ fn number_alike(records: &mut [Record]) {
                 None => places.push(vec![i]),
             }
         }
+        if places.len() < 2 {
+            continue;
+        }
         let mut number = 0;
-        for same in places.iter().filter(|_| places.len() > 1) {
+        for same in places {
             number += 1;
             while !taken.insert(format!("{name} ({number})")) {
                 number += 1;

@@ -7,6 +7,7 @@
 use core::borrow::Borrow;
 
 use super::certified::{Certified, RunKind, Verdict, chosen, is_drawn};
+use super::demanded::TRAVEL_USED_UP;
 use super::engine::{Engine, Running};
 use super::records::Record;
 use crate::check::{self, Certificate};
@@ -17,7 +18,7 @@ use crate::motion::GroundMotion;
 use crate::notice::{Notice, NoticeKind};
 use crate::response::{Response, flat_geometry};
 use crate::solver::{self, PreparedMotion, Workspace};
-use crate::table::{Cells, Column};
+use crate::table::{Cells, Column, Table};
 
 /// Runs of one design that one thread takes: the model is prepared once for them.
 const PIECE: usize = 16;
@@ -416,13 +417,18 @@ pub(crate) fn status(error: Option<&RunError>) -> String {
     error.map_or_else(|| "ok".to_owned(), RunError::to_string)
 }
 
-/// The column `holds` of runs: whether the check confirms a run, empty where it was not asked.
-pub(crate) fn holds_column<R, M>(ran: &[CaseRun<R, M>]) -> Column {
+/// Adds what runs say besides their demands: of sliders with surfaces the travel that was used up, and whether the
+/// check confirms a run, empty where it was not asked.
+pub(crate) fn add_answers<R, M>(table: &mut Table, ran: &[CaseRun<R, M>], has_surfaces: bool) {
+    if has_surfaces {
+        let used_up = ran.iter().map(|ran| ran.travel_used_up_m().unwrap_or(f64::NAN));
+        table.numbers(TRAVEL_USED_UP, "m", used_up.collect());
+    }
     let cells = Cells::Flags(ran.iter().map(|ran| ran.holds).collect());
-    Column { name: HOLDS.to_owned(), unit: String::new(), cells }
+    table.columns.push(Column { name: HOLDS.to_owned(), unit: String::new(), cells });
 }
 
-/// Name of that column.
+/// Name of the column that says whether the check confirms a run.
 pub(crate) const HOLDS: &str = "holds";
 
 /// What the runs of an analysis are called in messages.

@@ -165,15 +165,23 @@ impl Certified {
 
     /// With one more certified run, by its name.
     pub fn add(&mut self, run: &str, verdict: &Verdict) {
-        let largest = verdict.largest.clone();
+        let defect = (!verdict.holds()).then(|| verdict.what_failed());
+        self.add_judged(run, verdict.largest.clone(), defect);
+    }
+
+    /// The same by the largest figure of its certificate, where that is known, and what it does not confirm.
+    pub(crate) fn add_judged(
+        &mut self,
+        run: &str,
+        largest: Option<(String, f64)>,
+        defect: Option<String>,
+    ) {
+        let run = || run.to_owned();
         self.join(Self {
             runs: 0,
             certified: 1,
-            worst: largest.map(|(what, error)| Worst { run: run.to_owned(), what, error }),
-            unconfirmed: match verdict.holds() {
-                true => Vec::new(),
-                false => vec![Unconfirmed { run: run.to_owned(), what: verdict.what_failed() }],
-            },
+            worst: largest.map(|(what, error)| Worst { run: run(), what, error }),
+            unconfirmed: defect.map(|what| Unconfirmed { run: run(), what }).into_iter().collect(),
         });
     }
 

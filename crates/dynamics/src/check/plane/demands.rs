@@ -35,13 +35,13 @@ impl<'a> PlaneJudge<'a> {
             // Across the line of a motion along an axis nothing moves, and nothing is rounded.
             let is_still = self.axes.line.is_some_and(|line| line[axis] == 0.0);
             let sliding_m = [most_m.max(-least_m), most_m, least_m, last[axis]];
-            let peaks = &self.axes.peaks.largest[1 + axis];
+            let largest = &peaks.largest[1 + axis];
             let own = Recomputed {
                 sliding_m,
                 scale_m: if is_still { sliding_m[0] } else { peak_m },
-                peaks,
-                possible: &self.axes.peaks.possible[1 + axis],
-                scales: if is_still { peaks } else { root.scales },
+                peaks: largest,
+                possible: &peaks.possible[1 + axis],
+                scales: if is_still { largest } else { root.scales },
                 gap_m: None,
                 width_m: widths[axis],
                 ..root
