@@ -135,6 +135,14 @@ impl Rule {
         above / below
     }
 
+    /// Factors of the values at the points in the polynomial through them, at `t` beside the points.
+    pub(super) fn shares(&self, t: f64) -> [f64; POINTS] {
+        let shares: [f64; POINTS] =
+            core::array::from_fn(|i| self.barycentric[i] / (t - self.points[i]));
+        let sum: f64 = shares.iter().sum();
+        shares.map(|share| share / sum)
+    }
+
     /// The smallest value of `cost(t, value(t))` next to the point `middle`, by golden section.
     pub(super) fn least(
         &self,

@@ -1,7 +1,8 @@
 //! A motion in two horizontal directions: the same figures, from the equations of a plane.
 //!
 //! Only friction joins x and y: `T = −μ_k(|w|) N w/|w|` in a slip, `|T| ≤ μ_s N` in a stick. From every knot the
-//! equations are solved to the next by collocation in physical time, whatever variable the solver has used.
+//! equations are solved to the next in physical time, whatever variable the solver has used: what is linear by maps,
+//! the slider's force by collocation.
 
 mod body;
 mod decisions;
@@ -9,6 +10,7 @@ mod demands;
 mod frame;
 mod interval;
 mod judge;
+mod maps;
 mod peaks;
 mod step;
 

@@ -152,39 +152,28 @@ impl<'a> PlaneJudge<'a> {
         let Stretch { from_s, step_s, loads } = step.stretch;
         let rounding = self.rounding(&loads[0]);
         self.held(0, (from_s, step_s), rounding, |judge, t| {
-            let mut state = State::default();
-            step.at(judge.axes.stepper.rule, t, &mut state);
+            let rule = judge.axes.stepper.rule;
+            if let Some(point) = rule.points.iter().position(|point| *point == t) {
+                return judge.asked(step.push(point), &step.loads[point]).0;
+            }
+            let state = step.at(rule, t);
             let loads = between(&loads, t);
             judge.asked(judge.push(&state, &loads), &loads).0
         });
     }
 
-    /// The push at a point of a step.
-    fn push_at(&self, step: &Step, point: usize) -> Pair {
-        let mut state = State::default();
-        step.at_point(point, &mut state);
-        let loads = step.stretch.at(self.axes.stepper.rule.points[point] * step.stretch.step_s);
-        self.push(&state, &loads)
-    }
-
     /// `u·ẇ` at a point of a step of a slip.
     fn gains(&self, step: &Step, point: usize) -> f64 {
-        let loads = step.stretch.at(self.axes.stepper.rule.points[point] * step.stretch.step_s);
-        let push = self.push_at(step, point);
-        let slowing = self.frame().slowing(&loads, norm(step.speed(point)));
+        let push = step.push(point);
+        let slowing = self.frame().slowing(&step.loads[point], step.speeds[point]);
         let u = step.heading(self.frame(), point, push);
         dot(u, self.frame().body.moved([push[0] - slowing * u[0], push[1] - slowing * u[1]]))
     }
 
     /// The state at a part of a step of a slip.
     fn inside(&self, step: &Step, part: f64) -> State {
-        let mut state = State::default();
-        if step.tail > FINE {
-            self.axes.stepper.at(step, part, &mut state);
-        } else {
-            step.at(self.axes.stepper.rule, part, &mut state);
-        }
-        state
+        let stepper = &self.axes.stepper;
+        if step.tail > FINE { stepper.at(step, part) } else { step.at(stepper.rule, part) }
     }
 
     /// Where the speed is least between two points, of which one may be nearest, and that speed: the zero of `w·ẇ`, with
@@ -207,7 +196,7 @@ impl<'a> PlaneJudge<'a> {
         if !(falls < 0.0 && rises > 0.0) {
             return None;
         }
-        let mut least = (points[nearest], norm(step.speed(nearest)));
+        let mut least = (points[nearest], step.speeds[nearest]);
         // By chords, and by halves where these do not halve it.
         for pass in 0..200 {
             let chord = low + (high - low) * (falls / (falls - rises));
@@ -231,12 +220,7 @@ impl<'a> PlaneJudge<'a> {
     /// Takes the speeds of a step of a slip.
     pub(super) fn slid(&mut self, step: &Step) {
         let rule = self.axes.stepper.rule;
-        let mut state = State::default();
-        let mut speeds = [0.0; POINTS];
-        for (point, speed) in speeds.iter_mut().enumerate() {
-            step.at_point(point, &mut state);
-            *speed = norm(state.speed());
-        }
+        let speeds = step.speeds;
         let last = POINTS - 1;
         let least_near = |point: usize| {
             let beside = [point.saturating_sub(1), (point + 1).min(last)];
@@ -280,12 +264,11 @@ impl<'a> PlaneJudge<'a> {
         }
         for (t, size) in points {
             self.feed_speed(step.stretch.from_s + t * step.stretch.step_s, size, |judge| {
-                step.at(rule, t, &mut state);
-                judge.holds_only(&state, &between(&step.stretch.loads, t))
+                judge.holds_only(&step.at(rule, t), &between(&step.stretch.loads, t))
             });
         }
         let frame = self.frame();
-        self.axes.heading = Some(step.heading(frame, POINTS - 1, self.push_at(step, POINTS - 1)));
+        self.axes.heading = Some(step.heading(frame, POINTS - 1, step.push(POINTS - 1)));
         // A push too small to tell the first direction grows into one that does.
         if let Some(turn) = self.axes.event_directions.last_mut()
             && turn.direction.is_none()

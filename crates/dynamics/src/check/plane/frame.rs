@@ -84,10 +84,11 @@ pub(super) struct PlaneFrame<'a> {
     pub(super) along: Vec<Pair>,
     /// Points of a structure by its modes; `None` of a frame.
     pub(super) points: Option<Vec<PointOfModes>>,
-    /// Rows of `K` and `C` over all parts of `q`, relative to the block.
-    stiffness: Vec<f64>,
-    damping: Vec<f64>,
-    /// Upper bounds on the fastest rate where the block rests and where it slides, in 1/s.
+    /// Of each part of `q`, what of `K` and `C` is not 0 relative to the block: by which part, and both.
+    links: Vec<Vec<(usize, [f64; 2])>>,
+    /// Upper bounds on the fastest rate where the block rests and where it slides, in 1/s; of what is linear, and with
+    /// what friction by speed and a spring that follows `N` add.
+    pub(super) linear_rates: [f64; 2],
     pub(super) rates: [f64; 2],
     /// Upper bound on the largest undamped frequency on a block that rests, in rad/s.
     pub(super) frequency: f64,
@@ -139,8 +140,8 @@ impl<'a> PlaneFrame<'a> {
             masses_kg: x.masses_kg.iter().flat_map(|mass| [*mass; 2]).collect(),
             along: [[1.0, 0.0], [0.0, 1.0]].repeat(n),
             points: None,
-            stiffness,
-            damping,
+            links: links(width, [&stiffness, &damping]),
+            linear_rates: [fastest(Phase::Stick), fastest(Phase::Slip)],
             rates: [fastest(Phase::Stick), fastest(Phase::Slip) + added + by_speed],
             frequency: x.frame_frequency().max(y.frame_frequency()),
             fixed: law.most(),
@@ -187,6 +188,7 @@ impl<'a> PlaneFrame<'a> {
         let pull = libm::sqrt((slider.spring + 2.0 * sum(&stiffness)) / least_kg);
         let drag = (slider.damper + 2.0 * sum(&damping)) / least_kg;
         let added = libm::sqrt(normal / least_kg * curvature_per_m) + by_speed;
+        let linear_rates = [frequency.max(decay), frequency.max(pull).max(decay.max(drag))];
         Self {
             law,
             block_kg,
@@ -198,9 +200,9 @@ impl<'a> PlaneFrame<'a> {
             masses_kg: parts.iter().map(|part| part.mass_kg).collect(),
             along: parts.iter().map(|part| part.along).collect(),
             points: Some(PointOfModes::all(structure)),
-            stiffness,
-            damping,
-            rates: [frequency.max(decay), frequency.max(pull).max(decay.max(drag)) + added],
+            links: links(n, [&stiffness, &damping]),
+            linear_rates,
+            rates: [linear_rates[0], linear_rates[1] + added],
             frequency,
             fixed: law.most(),
             most: law.most().max(law.most_sliding()),
@@ -256,12 +258,13 @@ impl<'a> PlaneFrame<'a> {
 
     /// `K q + C q̇`, floor by floor, and all that acts on the block.
     pub(super) fn forces(&self, x: &[f64], v: &[f64], loads: &Loads, floors: &mut [f64]) -> Forces {
-        let width = self.masses_kg.len();
         let mut base = [0.0; 2];
         for (i, floor) in floors.iter_mut().enumerate() {
-            let rows = [&self.stiffness, &self.damping].map(|rows| &rows[i * width..][..width]);
-            let elastic: f64 = rows[0].iter().zip(&x[2..]).map(|(k, q)| k * q).sum();
-            let viscous: f64 = rows[1].iter().zip(&v[2..]).map(|(c, v)| c * v).sum();
+            let (mut elastic, mut viscous) = (0.0, 0.0);
+            for &(j, [k, c]) in &self.links[i] {
+                elastic += k * x[2 + j];
+                viscous += c * v[2 + j];
+            }
             *floor = elastic + viscous;
             let [x, y] = times(self.along[i], *floor);
             base = [base[0] + x, base[1] + y];
@@ -278,35 +281,52 @@ impl<'a> PlaneFrame<'a> {
     /// together: what of an acceleration is rounding is a part of it, and not of the acceleration, where a soft and a
     /// stiff storey meet.
     pub(super) fn largest_terms(&self, x: &[f64], v: &[f64]) -> f64 {
-        let width = self.masses_kg.len();
-        let sizes = |rows: &[f64], of: &[f64]| -> f64 {
-            rows.iter().zip(&of[2..]).map(|(k, q)| (k * q).abs()).sum()
-        };
         let (mut most, mut of_block) = (0.0_f64, 0.0);
-        for (i, mass_kg) in self.masses_kg.iter().enumerate() {
-            let [elastic, viscous] =
-                [&self.stiffness, &self.damping].map(|rows| &rows[i * width..][..width]);
-            let terms = sizes(elastic, x) + sizes(viscous, v);
+        for (links, mass_kg) in self.links.iter().zip(&self.masses_kg) {
+            let sizes =
+                |&(j, [k, c]): &(usize, [f64; 2])| (k * x[2 + j]).abs() + (c * v[2 + j]).abs();
+            let terms: f64 = links.iter().map(sizes).sum();
             most = most.max(terms / mass_kg);
             of_block += terms;
         }
         most.max(of_block * self.body.most_compliant() / self.block_kg)
     }
 
-    /// `v̇ᵀ C v̇`-like form of rows: `Σ z_i rows_ij z_j`.
-    fn form(rows: &[f64], z: &[f64]) -> f64 {
-        let products = rows.chunks_exact(z.len().max(1)).zip(z);
-        products.map(|(row, own)| own * row.iter().zip(z).map(|(c, z)| c * z).sum::<f64>()).sum()
+    /// `zᵀ K z` or `zᵀ C z`.
+    fn form(&self, of: usize, z: &[f64]) -> f64 {
+        let row =
+            |links: &[(usize, [f64; 2])]| links.iter().map(|(j, kc)| kc[of] * z[*j]).sum::<f64>();
+        self.links.iter().zip(z).map(|(links, own)| own * row(links)).sum()
+    }
+
+    /// Accelerations of all degrees, of the block over the table, under a table's acceleration and a force on the block
+    /// over its mass, where nothing presses it; of a block that rests or slides.
+    pub(super) fn accelerations(
+        &self,
+        [x, v]: [&[f64]; 2],
+        [a, force]: [Pair; 2],
+        slips: bool,
+    ) -> Vec<f64> {
+        let loads = a.map(|a| Load { a, ..Load::default() });
+        let mut floors = vec![0.0; self.masses_kg.len()];
+        let push = self.forces(x, v, &loads, &mut floors).push;
+        let block = match slips {
+            true => self.body.moved([push[0] + force[0], push[1] + force[1]]),
+            false => [0.0; 2],
+        };
+        let of_part =
+            |i: usize| -floors[i] / self.masses_kg[i] - self.ridden(i, a) - self.ridden(i, block);
+        block.into_iter().chain((0..floors.len()).map(of_part)).collect()
     }
 
     /// `C1 w² + q̇ᵀ C q̇`.
     pub(super) fn dissipation(&self, v: &[f64]) -> f64 {
-        self.damper * (v[0] * v[0] + v[1] * v[1]) + Self::form(&self.damping, &v[2..])
+        self.damper * (v[0] * v[0] + v[1] * v[1]) + self.form(1, &v[2..])
     }
 
     /// `(K1 s² + qᵀ K q)/2`.
     pub(super) fn strain(&self, x: &[f64]) -> f64 {
-        0.5 * (self.spring * (x[0] * x[0] + x[1] * x[1]) + Self::form(&self.stiffness, &x[2..]))
+        0.5 * (self.spring * (x[0] * x[0] + x[1] * x[1]) + self.form(0, &x[2..]))
     }
 
     /// `(M1 w² + Σ m_i (w + q̇_i)²)/2`.
@@ -335,6 +355,13 @@ impl<'a> PlaneFrame<'a> {
         let block_kg = self.block_kg / self.body.most_compliant();
         self.masses_kg.iter().fold(block_kg, |least, mass| mass.min(least))
     }
+}
+
+/// What is not 0 in rows of `K` and `C`.
+fn links(n: usize, [stiffness, damping]: [&[f64]; 2]) -> Vec<Vec<(usize, [f64; 2])>> {
+    let of = |i: usize, j: usize| [stiffness[i * n + j], damping[i * n + j]];
+    let row = |i: usize| (0..n).map(|j| (j, of(i, j))).filter(|(_, kc)| *kc != [0.0; 2]).collect();
+    (0..n).map(row).collect()
 }
 
 /// The matrix of a chain of springs or dampers from the block up, row by row.

@@ -1,6 +1,6 @@
 //! The own motion from a knot to the next.
 
-use super::super::collocation::{MAX_TURN, POINTS};
+use super::super::collocation::POINTS;
 use super::super::structure::{excess, larger};
 use super::decisions::is_straight;
 use super::frame::{Loads, Pair, dot, norm, table, unit};
@@ -146,8 +146,7 @@ impl<'a> PlaneJudge<'a> {
 
     /// A stretch of a stick, or of a slip that has come to rest.
     fn rest(&mut self, path: &mut IntervalPath, stretch: &Stretch) -> Result<(), Stopped> {
-        let turns = self.frame().rates[0] * stretch.step_s / MAX_TURN;
-        let steps = libm::ceil(turns * (1.0 - 1e-9)).max(1.0) as usize;
+        let steps = self.axes.stepper.parts(stretch.step_s, false) as usize;
         for j in 0..steps {
             let length_s = stretch.step_s / steps as f64;
             let part = stretch.part(j as f64 * length_s, length_s);
@@ -195,7 +194,7 @@ impl<'a> PlaneJudge<'a> {
                 }
             };
             let first_s = next_s.unwrap_or_else(|| self.outlook(path, &loads));
-            let longest_s = left_s.min(most_s).min(MAX_TURN / self.frame().rates[1]);
+            let longest_s = most_s.min(left_s / self.axes.stepper.parts(left_s, true));
             let Some(step) = self.step(path, stretch, (t, left_s), longest_s.min(first_s))? else {
                 if norm(path.state.speed()) > 0.0 {
                     self.give_up();
@@ -230,7 +229,7 @@ impl<'a> PlaneJudge<'a> {
         mut step_s: f64,
     ) -> Result<Option<Step>, Stopped> {
         // No sliver is left.
-        if step_s > 0.9 * left_s && left_s * self.frame().rates[1] <= MAX_TURN {
+        if step_s > 0.9 * left_s && self.axes.stepper.parts(left_s, true) == 1.0 {
             step_s = left_s;
         }
         loop {
@@ -288,7 +287,8 @@ impl<'a> PlaneJudge<'a> {
         };
         match rest_s.filter(|rest_s| stops || *rest_s <= left_s) {
             Some(rest_s) => Reach::Rest(rest_s),
-            None if t + reach_s == t => Reach::Turn,
+            // So slow that rounding tells its direction, it has been at rest and goes on along the push.
+            None if t + reach_s == t || self.rests(r) && p > f => Reach::Turn,
             None => Reach::Within(reach_s),
         }
     }
@@ -327,32 +327,30 @@ impl<'a> PlaneJudge<'a> {
     fn follow(&mut self, path: &mut IntervalPath, step: &Step) {
         let (rule, frame) = (self.axes.stepper.rule, self.axes.stepper.frame);
         let Stretch { from_s, step_s, .. } = step.stretch;
-        let mut state = State::default();
         let follows = self.law.follows();
         let (mut done, mut size, mut damping, mut friction) = (0.0, 0.0, 0.0, 0.0);
-        let mut quickest: f64 = 0.0;
         for point in 0..POINTS {
-            step.at_point(point, &mut state);
-            quickest = quickest.max(norm(state.speed()));
-            for (fastest, v) in path.fastest.iter_mut().zip(&state.v) {
+            let [x, v] = step.at_point(point);
+            for (fastest, v) in path.fastest.iter_mut().zip(v) {
                 *fastest = fastest.max(v.abs());
             }
+            step.raise_rates(frame, point, &mut path.rates);
             if point == 0 || point + 1 == POINTS {
                 continue;
             }
             let weight = step_s * rule.weights[point - 1];
-            let loads = step.stretch.at(rule.points[point] * step_s);
-            let power = dot(frame.momentum(&state.v), table(&loads));
-            let r = norm(state.speed());
+            let loads = &step.loads[point];
+            let power = dot(frame.momentum(v), table(loads));
+            let r = step.speeds[point];
             done -= weight * power;
             size += weight * power.abs();
-            damping += weight * frame.dissipation(&state.v);
+            damping += weight * frame.dissipation(v);
             if step.slips {
-                friction += weight * frame.block_kg * frame.slowing(&loads, r) * r;
+                friction += weight * frame.block_kg * frame.slowing(loads, r) * r;
             }
             if follows {
                 let rise = frame.curvature_per_m * loads[0].normal;
-                let back = -weight * rise * dot([state.x[0], state.x[1]], state.speed());
+                let back = -weight * rise * dot([x[0], x[1]], step.speed(point));
                 friction -= back;
                 size += back.max(0.0);
             }
@@ -367,15 +365,12 @@ impl<'a> PlaneJudge<'a> {
         if step.slips {
             self.totals.interfaces[0].path_m += step.path_m(rule);
         }
-        for (most, rate) in path.rates.iter_mut().zip(&step.rates) {
-            *most = most.max(*rate);
-        }
         self.see_peak_time(step, (from_s, step_s));
-        step.at_point(POINTS - 1, &mut path.state);
+        path.state = step.state(POINTS - 1);
         if path.rested_s.is_some() {
             return;
         }
-        if self.is_straight_near_rest(step, quickest) {
+        if self.is_straight_near_rest(step) {
             let acting = self.acting(&path.state, &step.stretch.at(step_s));
             self.axes.peaks.turn(&self.tracked(), &acting, None, false);
         } else {
@@ -384,18 +379,15 @@ impl<'a> PlaneJudge<'a> {
     }
 
     /// Whether a step is near rest in a slip that was straight when it came there.
-    fn is_straight_near_rest(&mut self, step: &Step, quickest: f64) -> bool {
-        let is_near = step.slips && quickest < NEAR_REST * self.dips[0].peak();
+    fn is_straight_near_rest(&mut self, step: &Step) -> bool {
+        let is_near = step.slips && step.quickest() < NEAR_REST * self.dips[0].peak();
         if self.axes.line.is_some() || !is_near {
             self.axes.near_rest = None;
             return false;
         }
         if self.axes.near_rest.is_none() {
-            let mut state = State::default();
-            step.at_point(0, &mut state);
-            let push = self.push(&state, &step.stretch.loads[0]);
-            let slowing = self.frame().slowing(&step.stretch.loads[0], norm(state.speed()));
-            self.axes.near_rest = Some(self.is_straight(state.speed(), push, slowing));
+            let slowing = self.frame().slowing(&step.loads[0], step.speeds[0]);
+            self.axes.near_rest = Some(self.is_straight(step.speed(0), step.push(0), slowing));
         }
         self.axes.near_rest == Some(true)
     }
@@ -406,8 +398,7 @@ impl<'a> PlaneJudge<'a> {
         if at_s < from_s - self.instant_s || at_s > from_s + step_s + self.instant_s {
             return;
         }
-        let mut state = State::default();
-        self.axes.stepper.at(step, ((at_s - from_s) / step_s).clamp(0.0, 1.0), &mut state);
+        let state = self.axes.stepper.at(step, ((at_s - from_s) / step_s).clamp(0.0, 1.0));
         let s = [state.x[0], state.x[1]];
         if self.axes.at_peak.is_none_or(|found| norm(s) > norm(found)) {
             self.axes.at_peak = Some(s);
@@ -422,12 +413,11 @@ impl<'a> PlaneJudge<'a> {
             return;
         }
         let half_s = 0.5 * step.stretch.step_s;
-        let mut state = State::default();
-        step.at_point(0, &mut state);
+        let mut state = step.state(0);
         let halves = [0.0, half_s].map(|t| {
             let half = self.axes.stepper.solve(&state, step.stretch.part(t, half_s), step.slips);
             if let Some(half) = &half {
-                half.at_point(POINTS - 1, &mut state);
+                state = half.state(POINTS - 1);
             }
             half
         });

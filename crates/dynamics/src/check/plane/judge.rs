@@ -1,6 +1,5 @@
 //! What is judged in a plane: from knot to knot in order of time.
 
-use super::super::collocation::Rule;
 use super::super::demands::{Comparison, Rounding};
 use super::super::energy::Books;
 use super::super::ground::{Ground, Load, nearest};
@@ -91,7 +90,7 @@ impl<'a> PlaneJudge<'a> {
         let plane = Plane {
             printed,
             along_y,
-            stepper: Stepper { frame, rule: Rule::get() },
+            stepper: Stepper::new(frame, given.motion.dt_s(), end_s),
             ground_y,
             peaks: Peaks::new(&Tracked { frame, outputs: given.outputs, line: None }),
             event_directions: Vec::new(),

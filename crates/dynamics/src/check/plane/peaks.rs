@@ -9,6 +9,7 @@ use super::body::PointOfModes;
 use super::frame::{Forces, Loads, Pair, PlaneFrame, cross, dot, norm, table, times, unit};
 use super::step::{State, Step};
 use crate::response::output::{BLOCK, FRICTION, OVERTURNING, Output, SLIDER};
+use std::borrow::Cow;
 
 /// The outputs that the direction of friction decides.
 const BY_DIRECTION: [usize; 4] = [BLOCK, SLIDER, FRICTION, OVERTURNING];
@@ -22,17 +23,23 @@ fn sizes(vector: Pair) -> [f64; 3] {
 
 /// What moves and acts at an instant.
 pub(super) struct Acting<'a> {
-    pub(super) state: &'a State,
-    loads: Loads,
+    pub(super) x: &'a [f64],
+    pub(super) v: &'a [f64],
+    pub(super) loads: Loads,
     pub(super) forces: Forces,
-    pub(super) floors: Vec<f64>,
+    pub(super) floors: Cow<'a, [f64]>,
 }
 
 impl<'a> Acting<'a> {
     pub(super) fn new(frame: &PlaneFrame<'_>, state: &'a State, loads: &Loads) -> Self {
         let mut floors = vec![0.0; frame.masses_kg.len()];
         let forces = frame.forces(&state.x, &state.v, loads, &mut floors);
-        Self { state, loads: *loads, forces, floors }
+        Self { x: &state.x, v: &state.v, loads: *loads, forces, floors: Cow::Owned(floors) }
+    }
+
+    /// `w`.
+    fn speed(&self) -> Pair {
+        [self.v[0], self.v[1]]
     }
 
     /// `ẇ + a`, `T` and `T − K1 s − N s/R − C1 w`, with the direction of a slip.
@@ -41,7 +48,7 @@ impl<'a> Acting<'a> {
         let (block, friction) = match direction {
             None => (a, times(push, -frame.block_kg)),
             Some(u) => {
-                let slowed = times(u, frame.slowing(&self.loads, norm(self.state.speed())));
+                let slowed = times(u, frame.slowing(&self.loads, norm(self.speed())));
                 let moved = frame.body.moved([push[0] - slowed[0], push[1] - slowed[1]]);
                 let block = match frame.body.is_one() {
                     true => [0, 1].map(|i| push[i] + a[i] - slowed[i]),
@@ -69,7 +76,7 @@ impl Tracked<'_> {
 
     /// In a slip in a direction, or in stick.
     fn vectors(&self, acting: &Acting<'_>, direction: Option<Pair>, out: &mut Vec<Pair>) {
-        let (frame, State { x, v }) = (self.frame, acting.state);
+        let (frame, Acting { x, v, .. }) = (self.frame, acting);
         out.clear();
         out.resize(self.len(), [0.0; 2]);
         // On a line friction is along it, whatever rounding makes of a velocity near rest.
@@ -98,11 +105,8 @@ impl Tracked<'_> {
     }
 
     /// Vectors at a point of a step.
-    fn at_point(&self, rule: &Rule, step: &Step, point: usize, out: &mut Vec<Pair>) {
-        let mut state = State::default();
-        step.at_point(point, &mut state);
-        let loads = step.stretch.at(rule.points[point] * step.stretch.step_s);
-        let acting = Acting::new(self.frame, &state, &loads);
+    fn at_point(&self, step: &Step, point: usize, out: &mut Vec<Pair>) {
+        let acting = step.acting(point);
         let heading = || step.heading(self.frame, point, acting.forces.push);
         self.vectors(&acting, step.slips.then(heading), out);
     }
@@ -116,12 +120,15 @@ pub(super) struct Peaks {
     pub(super) possible: [Vec<f64>; 3],
     /// Largest `s` towards the four sides.
     pub(super) sides_m: [f64; 4],
+    /// Room for vectors at the points of a step.
+    at: [Vec<Pair>; POINTS],
 }
 
 impl Peaks {
     pub(super) fn new(tracked: &Tracked<'_>) -> Self {
         let zeros = || core::array::from_fn(|_| vec![0.0; tracked.len()]);
-        Self { largest: zeros(), possible: zeros(), sides_m: [f64::NEG_INFINITY; 4] }
+        let at = core::array::from_fn(|_| Vec::new());
+        Self { largest: zeros(), possible: zeros(), sides_m: [f64::NEG_INFINITY; 4], at }
     }
 
     /// Raises the peaks by what is seen at an instant, in a slip in a direction or in stick.
@@ -139,7 +146,7 @@ impl Peaks {
                 *peak = larger(*peak, size);
             }
         }
-        let s = [acting.state.x[0], acting.state.x[1]];
+        let s = [acting.x[0], acting.x[1]];
         for (most, side) in self.sides_m.iter_mut().zip(SIDES) {
             *most = most.max(dot(s, side));
         }
@@ -238,10 +245,23 @@ impl Peaks {
         step: &Step,
         coarse: bool,
     ) -> bool {
-        let mut at = vec![Vec::new(); POINTS];
+        let mut at = core::mem::take(&mut self.at);
         for (point, vectors) in at.iter_mut().enumerate() {
-            tracked.at_point(rule, step, point, vectors);
+            tracked.at_point(step, point, vectors);
         }
+        let tells = self.raise(rule, tracked, &at, coarse);
+        self.at = at;
+        tells
+    }
+
+    /// The same by the vectors at the points.
+    fn raise(
+        &mut self,
+        rule: &Rule,
+        tracked: &Tracked<'_>,
+        at: &[Vec<Pair>; POINTS],
+        coarse: bool,
+    ) -> bool {
         for g in 0..tracked.len() {
             let parts: [[f64; POINTS]; 2] =
                 [0, 1].map(|axis| core::array::from_fn(|i| at[i][g][axis]));

@@ -1,27 +1,35 @@
-//! One step of the motion in a plane: Gauss collocation with eight nodes in physical time, by Newton's method.
+//! One step of the motion in a plane: the force of the slider by Gauss collocation, all else by linear maps.
 //!
-//! With `F_i` the accelerations at the nodes, `w_i = w_0 + h Σ_j A_ij F_j` and `∂(f u)/∂w = (f/r)(I − u uᵀ) + f′(r) u uᵀ`:
+//! The force on the block over its mass, `φ = −f(r) u − κ s` with `r u = w` and `κ = N/(R M1)` of a spring that follows
+//! `N`, is the polynomial through its values at eight nodes. Structure, springs and dampers are linear ([`maps`]), so that
+//! the block's motion at the nodes is linear in these values, and Newton's method has no other unknowns:
 //!
 //! ```text
-//! δ_i + h P_i Σ_j A_ij δ_j = p_i − f_i u_i − F_i        P = ∂(f u)/∂w
+//! w_j = w°_j + Σ_k G_jk φ_k        δ_j + Σ_k (P_j G_jk + κ_j S_jk) δ_k = −f_j u_j − κ_j s_j − φ_j
+//! P = (f/r)(I − u uᵀ) + f′(r) u uᵀ
 //! ```
 //!
-//! for the block's part; what the structure does to `p` and to itself follows by iteration, as λ h ≤ 1/2.
-//!
-//! Legendre's coefficients `c_k` of `F` fall like `ρ^−k` for a motion that is analytic in an ellipse of
-//! that ρ, the defect at the end of a step like `ρ^−16`: less than `h |F| (c_6/|F|)²`; the more
+//! Legendre's coefficients `c_k` of φ fall like `ρ^−k` for a motion that is analytic in an ellipse of
+//! that ρ, the defect at the end of a step like `ρ^−16`: less than `h |φ| (c_6/|φ|)²`; the more
 //! so where friction is stiff.
+//!
+//! [`maps`]: super::maps
 
 use super::super::collocation::{NODES, POINTS, Rule, legendre};
 use super::frame::{
     Forces, Loads, Pair, PlaneFrame, between, cross, dot, norm, table, times, unit,
 };
+use super::maps::{Blocks, Influence, Linear};
+use super::peaks::Acting;
+use std::borrow::Cow;
+use std::sync::LazyLock;
 
 /// A velocity below this part of the largest in a step has no direction.
 const ROUNDING: f64 = 1e-9;
-/// Largest last Legendre coefficient over the largest acceleration with which the polynomials are as good as the
-/// motion.
+/// Largest last Legendre coefficient over the largest force with which the polynomials are as good as the motion.
 pub(super) const FINE: f64 = 1e-10;
+/// Most radians of a step: what is linear is exact, the polynomials through the points of a radian are off by 5e-13.
+pub(super) const MOST_RADIANS: f64 = 1.0;
 /// Most passes of the iteration.
 const MOST_PASSES: usize = 40;
 /// Unknowns of the block at the nodes.
@@ -71,54 +79,91 @@ impl Stretch {
     }
 }
 
-/// The motion in a step: polynomials through their values at the points of the rule.
+/// The motion in a step: its states at the points of the rule, polynomials between them, and what acts there.
 pub(super) struct Step {
     pub(super) stretch: Stretch,
     pub(super) slips: bool,
-    x: Vec<[f64; POINTS]>,
-    v: Vec<[f64; POINTS]>,
-    /// Largest of the last Legendre coefficients of the block's acceleration over its largest value.
+    degrees: usize,
+    /// `x` and `v` one after the other, point by point.
+    states: Vec<f64>,
+    /// `w` along x and along y, and its size.
+    w: [[f64; POINTS]; 2],
+    pub(super) speeds: [f64; POINTS],
+    pub(super) loads: [Loads; POINTS],
+    forces: [Forces; POINTS],
+    /// `K q + C q̇`, point by point.
+    floors: Vec<f64>,
+    /// Largest of the last Legendre coefficients of the slider's force over its largest value.
     pub(super) tail: f64,
-    /// Largest acceleration of the block over the table.
-    pub(super) sharpest: f64,
-    /// Largest rate of each velocity.
-    pub(super) rates: Vec<f64>,
+    /// Largest force of the slider over the mass of the block.
+    sharpest: f64,
 }
 
 impl Step {
+    /// `x` and `v` at a point.
+    pub(super) fn at_point(&self, point: usize) -> [&[f64]; 2] {
+        let (x, v) =
+            self.states[2 * self.degrees * point..][..2 * self.degrees].split_at(self.degrees);
+        [x, v]
+    }
+
     /// The state at a point.
-    pub(super) fn at_point(&self, point: usize, state: &mut State) {
-        for (to, from) in [(&mut state.x, &self.x), (&mut state.v, &self.v)] {
-            to.clear();
-            to.extend(from.iter().map(|values| values[point]));
-        }
+    pub(super) fn state(&self, point: usize) -> State {
+        let [x, v] = self.at_point(point).map(<[f64]>::to_vec);
+        State { x, v }
+    }
+
+    /// All that acts at a point.
+    pub(super) fn acting(&self, point: usize) -> Acting<'_> {
+        let ([x, v], n) = (self.at_point(point), self.degrees - 2);
+        let floors = Cow::Borrowed(&self.floors[n * point..][..n]);
+        Acting { x, v, loads: self.loads[point], forces: self.forces[point], floors }
     }
 
     /// The state at a part of the step.
-    pub(super) fn at(&self, rule: &Rule, part: f64, state: &mut State) {
+    pub(super) fn at(&self, rule: &Rule, part: f64) -> State {
         if let Some(point) = rule.points.iter().position(|point| *point == part) {
-            return self.at_point(point, state);
+            return self.state(point);
         }
-        for (to, from) in [(&mut state.x, &self.x), (&mut state.v, &self.v)] {
-            to.clear();
-            to.extend(from.iter().map(|values| rule.interpolate(values, part)));
+        let shares = rule.shares(part);
+        let mut all = vec![0.0; 2 * self.degrees];
+        for (state, share) in self.states.chunks_exact(all.len()).zip(shares) {
+            all.iter_mut().zip(state).for_each(|(sum, value)| *sum += share * value);
         }
+        let v = all.split_off(self.degrees);
+        State { x: all, v }
+    }
+
+    /// `w` at a part of the step.
+    pub(super) fn speed_at(&self, rule: &Rule, part: f64) -> Pair {
+        self.w.each_ref().map(|w| rule.interpolate(w, part))
     }
 
     /// `w` at a point.
     pub(super) fn speed(&self, point: usize) -> Pair {
-        [self.v[0][point], self.v[1][point]]
+        [self.w[0][point], self.w[1][point]]
+    }
+
+    /// The push at a point.
+    pub(super) fn push(&self, point: usize) -> Pair {
+        self.forces[point].push
+    }
+
+    /// The largest speed at its points.
+    pub(super) fn quickest(&self) -> f64 {
+        self.speeds.iter().fold(0.0, |most: f64, speed| most.max(*speed))
     }
 
     /// The direction of a slip at a point under a push. At rest, in which a slip begins and ends along the push,
     /// what is left of the velocity is rounding; in straight motion it is that of the point beside it.
     pub(super) fn heading(&self, frame: &PlaneFrame<'_>, point: usize, push: Pair) -> Pair {
-        let fastest = (0..POINTS).fold(0.0, |most: f64, i| most.max(norm(self.speed(i))));
         let (w, Stretch { from_s, step_s, loads }) = (self.speed(point), &self.stretch);
         let beside = self.speed(if point == 0 { 1 } else { point - 1 });
         let under = (from_s + step_s, &loads[0], push);
-        if norm(w) > ROUNDING * fastest && !frame.has_turned_about([w, beside], under) {
-            return unit(w).unwrap_or_default();
+        if self.speeds[point] > ROUNDING * self.quickest()
+            && !frame.has_turned_about([w, beside], under)
+        {
+            return times(w, 1.0 / self.speeds[point]);
         }
         let along = if frame.body.is_one() {
             unit(push)
@@ -132,26 +177,26 @@ impl Step {
 
     /// `∫|w| dt`, by halves where the speed has corners: it may have one where it is least.
     pub(super) fn path_m(&self, rule: &Rule) -> f64 {
-        let speed = |t: f64| norm([0, 1].map(|axis| rule.interpolate(&self.v[axis], t)));
+        let speed = |t: f64| norm(self.speed_at(rule, t));
         let over = |from: f64, to: f64| {
             let nodes = rule.c.iter().zip(&rule.weights);
             (to - from) * nodes.map(|(c, b)| b * speed(from + (to - from) * c)).sum::<f64>()
         };
-        let speeds: [f64; POINTS] = core::array::from_fn(|i| norm(self.speed(i)));
+        let speeds = self.speeds;
         let inside: [f64; NODES] = core::array::from_fn(|i| speeds[1 + i]);
         let whole: f64 = rule.weights.iter().zip(&inside).map(|(b, r)| b * r).sum();
-        let last = [NODES - 2, NODES - 1].map(|k| coefficient(rule, k, &inside).abs());
+        let last = last_coefficients(&inside);
         // A corner beside an end shows in no coefficient, and none shows where a part ends beside it.
         let is_inside = |i: usize| i > 0 && i + 1 < POINTS;
         let is_low =
             |i: &usize| is_least(&speeds, *i) && (is_inside(*i) || speeds[*i] <= 0.1 * whole);
-        let low: Vec<usize> = (0..POINTS).filter(is_low).collect();
-        if low.is_empty() && last[0].max(last[1]) <= 1e-7 * whole {
+        let mut low = (0..POINTS).filter(is_low).peekable();
+        if low.peek().is_none() && last[0].max(last[1]) <= 1e-7 * whole {
             return self.stretch.step_s * whole;
         }
         let least = |i: usize| rule.least_of((i, speeds[i] * speeds[i]), |t| speed(t) * speed(t)).0;
         let inner = |t: &f64| *t > 0.0 && *t < 1.0;
-        let corners: Vec<f64> = low.into_iter().map(least).filter(inner).collect();
+        let corners: Vec<f64> = low.map(least).filter(inner).collect();
         let ends = [&[0.0], &corners[..], &[1.0]].concat();
         let mut parts: Vec<_> = ends.windows(2).map(|e| (e[0], e[1], over(e[0], e[1]))).collect();
         let mut sum = 0.0;
@@ -166,6 +211,28 @@ impl Step {
             }
         }
         self.stretch.step_s * sum
+    }
+
+    /// Raises the largest rate of each velocity by those at a point: what acts on a block that rests or slides.
+    pub(super) fn raise_rates(&self, frame: &PlaneFrame<'_>, point: usize, most: &mut [f64]) {
+        let Acting { loads, forces, floors, .. } = self.acting(point);
+        let a = table(&loads);
+        let mut block = [0.0; 2];
+        if self.slips {
+            let f = frame.slowing(&loads, self.speeds[point]);
+            let u = unit(self.speed(point)).unwrap_or_default();
+            block = frame.body.moved([0, 1].map(|i| forces.push[i] - f * u[i]));
+        }
+        for (i, most) in most.iter_mut().enumerate() {
+            let rate = match i.checked_sub(2) {
+                None => block[i],
+                Some(part) => {
+                    let carried = [a[0] + block[0], a[1] + block[1]];
+                    -floors[part] / frame.masses_kg[part] - frame.ridden(part, carried)
+                }
+            };
+            *most = most.max(rate.abs());
+        }
     }
 
     /// The defect of the block's velocity at the end, about.
@@ -184,145 +251,147 @@ fn is_least(values: &[f64; POINTS], point: usize) -> bool {
 pub(super) struct Stepper<'a> {
     pub(super) frame: &'a PlaneFrame<'a>,
     pub(super) rule: &'static Rule,
+    /// Where the block rests, and where it slides.
+    linear: [Linear; 2],
+    /// Within which a length is that of another step.
+    instant_s: f64,
 }
 
-/// Accelerations at the nodes, part by part.
-type Rates = Vec<[f64; NODES]>;
+impl<'a> Stepper<'a> {
+    /// For a motion with samples that are evenly spaced, or not.
+    pub(super) fn new(frame: &'a PlaneFrame<'a>, sample_s: Option<f64>, end_s: f64) -> Self {
+        let mut linear = [false, true].map(|slips| Linear::new(frame, slips));
+        for linear in &mut linear {
+            if let Some(sample_s) = sample_s {
+                linear.keep(sample_s / linear.parts(sample_s));
+            }
+        }
+        Self { frame, rule: Rule::get(), linear, instant_s: 4.0 * f64::EPSILON * end_s }
+    }
 
-impl Stepper<'_> {
+    /// In how many parts a stretch is gone through in which nothing but what is linear bounds them.
+    pub(super) fn parts(&self, length_s: f64, slips: bool) -> f64 {
+        self.linear[usize::from(slips)].parts(length_s)
+    }
+
     /// A step from a state; `None` where the iteration does not settle. A slip that starts from rest follows
     /// the push: `None` where that does not exceed friction.
     pub(super) fn solve(&self, from: &State, stretch: Stretch, slips: bool) -> Option<Step> {
-        let mut rates = vec![[0.0; NODES]; self.frame.degrees()];
-        if slips {
-            if unit(from.speed()).is_some() || stretch.loads.iter().all(|l| self.frame.is_free(l)) {
-                self.go_on(from, stretch, &mut rates);
-            } else {
-                self.depart(from, stretch, &mut rates)?;
+        let (frame, d) = (self.frame, self.frame.degrees());
+        let linear = &self.linear[usize::from(slips)];
+        let length = (stretch.step_s, self.instant_s);
+        let mut states = vec![0.0; 2 * d * POINTS];
+        states[..d].copy_from_slice(&from.x);
+        states[d..2 * d].copy_from_slice(&from.v);
+        let targets = &mut states[2 * d..];
+        linear.free([&from.x, &from.v], &stretch.loads, length, targets);
+        let mut forces = [[0.0; NODES]; 2];
+        let is_forced =
+            frame.curvature_per_m > 0.0 || stretch.loads.iter().any(|loads| !frame.is_free(loads));
+        if slips && is_forced {
+            forces = self.guess(from, stretch)?;
+            let of = |place: usize| core::array::from_fn(|j| targets[2 * d * j + place]);
+            let free = [[of(0), of(1)], [of(d), of(d + 1)]];
+            let size = frame.largest_terms(&from.x, &from.v);
+            let settled = linear.with_influence(length, |influence| {
+                self.settle(&free, (stretch, size), influence, &mut forces)
+            });
+            if !settled {
+                return None;
             }
+            linear.add_forced(&forces, length, targets);
         }
-        let settled = self.settle(from, stretch, slips, &mut rates);
-        settled.then(|| self.step(from, stretch, slips, &rates))
+        Some(self.step(stretch, slips, states, &forces))
     }
 
     /// The state at a part of a step, by a step that ends there: an end is known better than what lies between
     /// the points.
-    pub(super) fn at(&self, step: &Step, part: f64, state: &mut State) {
-        step.at_point(0, state);
-        if part > 0.0 {
-            let stretch = step.stretch.part(0.0, part * step.stretch.step_s);
-            match self.solve(state, stretch, step.slips) {
-                Some(part) => part.at_point(POINTS - 1, state),
-                None => step.at(self.rule, part, state),
-            }
+    pub(super) fn at(&self, step: &Step, part: f64) -> State {
+        let start = step.state(0);
+        if part == 0.0 {
+            return start;
+        }
+        let stretch = step.stretch.part(0.0, part * step.stretch.step_s);
+        match self.solve(&start, stretch, step.slips) {
+            Some(part) => part.state(POINTS - 1),
+            None => step.at(self.rule, part),
         }
     }
 
-    /// Accelerations to begin a slip with that is under way: those at its start.
-    fn go_on(&self, from: &State, stretch: Stretch, rates: &mut Rates) {
-        let mut floors = vec![0.0; self.frame.masses_kg.len()];
-        let loads = &stretch.loads[0];
-        let push = self.frame.forces(&from.x, &from.v, loads, &mut floors).push;
-        let u = unit(from.speed()).unwrap_or([0.0; 2]);
-        let f = self.frame.slowing(loads, norm(from.speed()));
-        let block = self.frame.body.moved([0, 1].map(|i| push[i] - f * u[i]));
-        let a = table(loads);
-        for (k, list) in rates.iter_mut().enumerate() {
-            *list = match k.checked_sub(2) {
-                None => [block[k]; NODES],
-                Some(part) => {
-                    let [carried, moved] = [a, block].map(|of| self.frame.ridden(part, of));
-                    let pull = -floors[part] / self.frame.masses_kg[part] - carried;
-                    [pull - moved; NODES]
-                }
-            };
+    /// Forces at the nodes to begin with: along the velocity at the start, or along the push of a block that would rest.
+    fn guess(&self, from: &State, stretch: Stretch) -> Option<[[f64; NODES]; 2]> {
+        let frame = self.frame;
+        let under = |i: usize| between(&stretch.loads, self.rule.c[i]);
+        let force = |loads: &Loads, u: Pair, speed: f64, s: Pair| {
+            let (f, kappa) = (frame.slowing(loads, speed), self.stiffness(loads));
+            [0, 1].map(|i| -f * u[i] - kappa * s[i])
+        };
+        let s = [from.x[0], from.x[1]];
+        if let Some(u) = unit(from.speed()) {
+            let r = norm(from.speed());
+            return Some(by_axis(|i| force(&under(i), u, r, s)));
         }
+        if stretch.loads.iter().all(|loads| frame.is_free(loads)) {
+            return Some(by_axis(|i| force(&under(i), [0.0; 2], 0.0, s)));
+        }
+        let step = self.solve(from, stretch, false)?;
+        let (mut all, mut leaves) = ([[0.0; 2]; NODES], false);
+        for (i, to) in all.iter_mut().enumerate() {
+            let (push, slowing) = (step.push(1 + i), frame.slowing(&step.loads[1 + i], 0.0));
+            leaves |= norm(push) > slowing;
+            *to = force(&step.loads[1 + i], frame.body.departure(push, slowing)?, 0.0, s);
+        }
+        leaves.then(|| by_axis(|i| all[i]))
     }
 
-    /// Accelerations to begin a release with: `(|p| − f) p/|p|` of a block that would rest.
-    fn depart(&self, from: &State, stretch: Stretch, rates: &mut Rates) -> Option<()> {
-        let mut floors = vec![0.0; self.frame.masses_kg.len()];
-        if !self.settle(from, stretch, false, rates) {
-            return None;
-        }
-        let step = self.step(from, stretch, false, rates);
-        let mut state = State::default();
-        let mut leaves = false;
-        for i in 0..NODES {
-            step.at_point(1 + i, &mut state);
-            let loads = between(&stretch.loads, self.rule.c[i]);
-            let push = self.frame.forces(&state.x, &state.v, &loads, &mut floors).push;
-            let slowing = self.frame.slowing(&loads, 0.0);
-            let beyond = norm(push) - slowing;
-            leaves |= beyond > 0.0;
-            let along = self.frame.body.departure(push, slowing)?;
-            let start = times(along, beyond.max(1e-3 * beyond.abs()));
-            (rates[0][i], rates[1][i]) = (start[0], start[1]);
-        }
-        leaves.then_some(())
+    /// Of the spring that follows `N`, over the mass of the block.
+    fn stiffness(&self, loads: &Loads) -> f64 {
+        self.frame.curvature_per_m * loads[0].normal / self.frame.block_kg
     }
 
-    /// Iterates accelerations at the nodes. Whether they settle.
-    fn settle(&self, from: &State, stretch: Stretch, slips: bool, rates: &mut Rates) -> bool {
-        let (rule, frame, h) = (self.rule, self.frame, stretch.step_s);
-        let d = frame.degrees();
-        let mut floors = vec![0.0; d - 2];
-        let mut state = from.clone();
-        let mut last = f64::INFINITY;
-        let mut pulls = vec![0.0; NODES * (d - 2)];
+    /// Iterates forces at the nodes from what `s` and `w` are there without them. Whether they settle.
+    fn settle(
+        &self,
+        free: &[[[f64; NODES]; 2]; 2],
+        (stretch, terms): (Stretch, f64),
+        influence: &Influence,
+        forces: &mut [[f64; NODES]; 2],
+    ) -> bool {
+        let frame = self.frame;
+        let loads: [Loads; NODES] =
+            core::array::from_fn(|i| between(&stretch.loads, self.rule.c[i]));
+        let kappa = loads.each_ref().map(|loads| self.stiffness(loads));
+        let follows = frame.curvature_per_m > 0.0;
+        let (mut last, mut newton) = (f64::INFINITY, None);
         for pass in 0..MOST_PASSES {
-            let mut system = Newton::default();
-            // An acceleration is known to the rounding of the forces that it is made of.
-            let terms = frame.largest_terms(&state.x, &state.v);
-            let (mut change, mut size) = (0.0_f64, 0.0_f64);
-            for i in 0..NODES {
-                node(rule, h, from, rates, i, &mut state);
-                let loads = between(&stretch.loads, rule.c[i]);
-                let Forces { push, .. } = frame.forces(&state.x, &state.v, &loads, &mut floors);
-                let a = table(&loads);
-                for (k, (floor, mass)) in floors.iter().zip(&frame.masses_kg).enumerate() {
-                    pulls[i * (d - 2) + k] = -floor / mass - frame.ridden(k, a);
-                }
-                if !slips {
-                    continue;
-                }
-                let w = state.speed();
+            let (mut change, mut size) = (0.0_f64, terms);
+            let (mut bends, mut off) = ([([[0.0; 2]; 2], 0.0); NODES], [0.0; UNKNOWNS]);
+            let w = moved(&influence.of_w, &free[1], forces);
+            let s = if follows { moved(&influence.of_s, &free[0], forces) } else { free[0] };
+            for j in 0..NODES {
+                let w = [w[0][j], w[1][j]];
                 let r = norm(w);
-                let [f, slope] = frame.slowing_and_slope(&loads, r);
-                let mut rate = frame.body.moved(push);
-                let mut bend = [[0.0; 2]; 2];
+                let [f, slope] = frame.slowing_and_slope(&loads[j], r);
+                let mut force = [-kappa[j] * s[0][j], -kappa[j] * s[1][j]];
+                bends[j].1 = kappa[j];
                 if f > 0.0 && r > 0.0 {
                     let u = [w[0] / r, w[1] / r];
-                    rate = frame.body.moved([push[0] - f * u[0], push[1] - f * u[1]]);
-                    // It is symmetric, its columns are its rows.
-                    let rows = [0, 1].map(|a| {
+                    force = [force[0] - f * u[0], force[1] - f * u[1]];
+                    bends[j].0 = [0, 1].map(|a| {
                         let across = |b: usize| if a == b { 1.0 } else { 0.0 } - u[a] * u[b];
                         [0, 1].map(|b| f / r * across(b) + slope * u[a] * u[b])
                     });
-                    let columns = rows.map(|column| frame.body.moved(column));
-                    bend = [0, 1].map(|a| [columns[0][a], columns[1][a]]);
                 }
-                size = size.max(norm(push) + f);
-                system.take(rule, h, i, bend, [rate[0] - rates[0][i], rate[1] - rates[1][i]]);
+                size = size.max(norm(force));
+                (0..2).for_each(|axis| off[2 * j + axis] = force[axis] - forces[axis][j]);
             }
-            if slips {
-                let Some(steps) = system.solve() else { return false };
-                for i in 0..NODES {
-                    for axis in 0..2 {
-                        let step = steps[2 * i + axis];
-                        change = change.max(step.abs());
-                        rates[axis][i] += step;
-                    }
-                }
-            }
-            for i in 0..NODES {
-                for k in 2..d {
-                    let block = [rates[0][i], rates[1][i]];
-                    let rate = pulls[i * (d - 2) + k - 2] - frame.ridden(k - 2, block);
-                    change = change.max((rate - rates[k][i]).abs());
-                    size = size.max(rate.abs());
-                    rates[k][i] = rate;
-                }
+            // A matrix is kept as long as a pass gains two digits by it.
+            let kept = newton.take().or_else(|| Newton::new(influence, &bends));
+            let Some(kept) = kept else { return false };
+            let steps = kept.solve(off);
+            for (i, step) in steps.iter().enumerate() {
+                change = change.max(step.abs());
+                forces[i % 2][i / 2] += step;
             }
             if !change.is_finite() {
                 return false;
@@ -330,88 +399,111 @@ impl Stepper<'_> {
             // The next pass would change as much less as this one has.
             let next = if pass > 0 { change * (change / last) } else { change };
             let stalled = pass >= 6 && change >= 0.5 * last && change <= 1e-12 * size;
-            if change.min(next) <= 2.0 * f64::EPSILON * size.max(terms) || stalled {
+            if change.min(next) <= 2.0 * f64::EPSILON * size || stalled {
                 return true;
             }
+            newton = (change <= 1e-2 * if pass > 0 { last } else { size }).then_some(kept);
             last = change;
         }
         false
     }
 
-    /// The motion from accelerations at the nodes.
-    fn step(&self, from: &State, stretch: Stretch, slips: bool, rates: &Rates) -> Step {
-        let (rule, h, d) = (self.rule, stretch.step_s, self.frame.degrees());
-        let (mut x, mut v) = (vec![[0.0; POINTS]; d], vec![[0.0; POINTS]; d]);
-        let mut state = State { x: vec![0.0; d], v: vec![0.0; d] };
-        for i in 0..NODES {
-            node(rule, h, from, rates, i, &mut state);
-            for k in 0..d {
-                (x[k][1 + i], v[k][1 + i]) = (state.x[k], state.v[k]);
-            }
+    /// The motion with forces at the nodes, and what acts at its points.
+    fn step(
+        &self,
+        stretch: Stretch,
+        slips: bool,
+        states: Vec<f64>,
+        forces: &[[f64; NODES]; 2],
+    ) -> Step {
+        let (frame, d) = (self.frame, self.frame.degrees());
+        let mut floors = vec![0.0; POINTS * (d - 2)];
+        let at = |point: usize| states[2 * d * point..][..2 * d].split_at(d);
+        let loads = self.rule.points.map(|point| between(&stretch.loads, point));
+        let mut acting = [Forces::default(); POINTS];
+        for (point, acting) in acting.iter_mut().enumerate() {
+            let (x, v) = at(point);
+            let floors = &mut floors[(d - 2) * point..][..d - 2];
+            *acting = frame.forces(x, v, &loads[point], floors);
         }
-        for k in 0..d {
-            (x[k][0], v[k][0]) = (from.x[k], from.v[k]);
-            [x[k][POINTS - 1], v[k][POINTS - 1]] =
-                rule.end(h, [from.x[k], from.v[k]], |j| rates[k][j]);
+        let w = [0, 1].map(|axis| core::array::from_fn(|point| at(point).1[axis]));
+        let speeds = core::array::from_fn(|point| norm([w[0][point], w[1][point]]));
+        let [x, y] = forces;
+        let sharpest = x.iter().zip(y).map(|(x, y)| norm([*x, *y])).fold(0.0, f64::max);
+        let mut tail = 0.0;
+        if sharpest > 0.0 {
+            let last = forces.each_ref().map(last_coefficients);
+            tail = last.into_iter().flatten().fold(0.0, f64::max) / sharpest;
         }
-        let most =
-            |list: &[f64; NODES]| list.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
-        let sharpest = most(&rates[0]).max(most(&rates[1]));
-        let tail = if slips && sharpest > 0.0 {
-            let last =
-                |k: usize| rates[..2].iter().map(move |list| coefficient(rule, k, list).abs());
-            last(NODES - 2).chain(last(NODES - 1)).fold(0.0, f64::max) / sharpest
-        } else {
-            0.0
-        };
-        let rates = rates.iter().map(most).collect();
-        Step { stretch, slips, x, v, tail, sharpest, rates }
+        Step {
+            stretch,
+            slips,
+            degrees: d,
+            w,
+            speeds,
+            states,
+            loads,
+            forces: acting,
+            floors,
+            tail,
+            sharpest,
+        }
     }
 }
 
-/// The state at a node.
-fn node(rule: &Rule, h: f64, from: &State, rates: &Rates, i: usize, state: &mut State) {
-    for k in 0..rates.len() {
-        [state.x[k], state.v[k]] = rule.node(i, h, [from.x[k], from.v[k]], |j| rates[k][j]);
-    }
+/// A list of vectors at the nodes, axis by axis.
+fn by_axis(of: impl Fn(usize) -> Pair) -> [[f64; NODES]; 2] {
+    let all: [Pair; NODES] = core::array::from_fn(of);
+    [0, 1].map(|axis| all.map(|vector| vector[axis]))
 }
 
-/// Legendre's coefficient of values at the nodes.
-fn coefficient(rule: &Rule, k: usize, values: &[f64; NODES]) -> f64 {
-    let terms =
-        (0..NODES).map(|j| rule.weights[j] * legendre(k, 2.0 * rule.c[j] - 1.0) * values[j]);
-    (2 * k + 1) as f64 * terms.sum::<f64>()
+/// What moves without forces, and with them.
+fn moved(by: &Blocks, free: &[[f64; NODES]; 2], forces: &[[f64; NODES]; 2]) -> [[f64; NODES]; 2] {
+    [0, 1].map(|a| {
+        core::array::from_fn(|j| {
+            let of = |b: usize| by[a][b][j].iter().zip(&forces[b]).map(|(g, f)| g * f).sum::<f64>();
+            free[a][j] + (of(0) + of(1))
+        })
+    })
 }
 
-/// The linear system of a pass, and its right side.
+/// Sizes of the last two of Legendre's coefficients of values at the nodes.
+fn last_coefficients(values: &[f64; NODES]) -> [f64; 2] {
+    static ROWS: LazyLock<[[f64; NODES]; 2]> = LazyLock::new(|| {
+        let rule = Rule::get();
+        [NODES - 2, NODES - 1].map(|k| {
+            let of = |j: usize| rule.weights[j] * legendre(k, 2.0 * rule.c[j] - 1.0);
+            core::array::from_fn(|j| (2 * k + 1) as f64 * of(j))
+        })
+    });
+    ROWS.each_ref().map(|row| row.iter().zip(values).map(|(c, value)| c * value).sum::<f64>().abs())
+}
+
+/// The matrix of a pass, factored with row pivots.
 struct Newton {
-    rows: [[f64; UNKNOWNS + 1]; UNKNOWNS],
-}
-
-impl Default for Newton {
-    fn default() -> Self {
-        Self { rows: [[0.0; UNKNOWNS + 1]; UNKNOWNS] }
-    }
+    rows: [[f64; UNKNOWNS]; UNKNOWNS],
+    pivots: [usize; UNKNOWNS],
 }
 
 impl Newton {
-    /// The two rows of a node.
-    fn take(&mut self, rule: &Rule, h: f64, i: usize, bend: [[f64; 2]; 2], off: Pair) {
-        for axis in 0..2 {
-            let row = &mut self.rows[2 * i + axis];
-            for j in 0..NODES {
-                for other in 0..2 {
-                    row[2 * j + other] = h * bend[axis][other] * rule.a[i][j];
+    /// Of how friction bends at each node, and of the spring that follows `N`; `None` where it is singular.
+    fn new(influence: &Influence, bends: &[([[f64; 2]; 2], f64); NODES]) -> Option<Self> {
+        let mut rows = [[0.0; UNKNOWNS]; UNKNOWNS];
+        for (j, (bend, stiffness)) in bends.iter().enumerate() {
+            for axis in 0..2 {
+                let row = &mut rows[2 * j + axis];
+                let [x, y] = influence.of_w.each_ref().map(|of| of.each_ref().map(|of| of[j]));
+                for i in 0..UNKNOWNS {
+                    let (by, k) = (i % 2, i / 2);
+                    row[i] = bend[axis][0] * x[by][k] + bend[axis][1] * y[by][k];
+                    if *stiffness != 0.0 {
+                        row[i] += stiffness * influence.of_s[axis][by][j][k];
+                    }
                 }
+                row[2 * j + axis] += 1.0;
             }
-            row[2 * i + axis] += 1.0;
-            row[UNKNOWNS] = off[axis];
         }
-    }
-
-    /// By elimination with row pivots.
-    fn solve(mut self) -> Option<[f64; UNKNOWNS]> {
-        let rows = &mut self.rows;
+        let mut pivots = [0; UNKNOWNS];
         for column in 0..UNKNOWNS {
             let larger = |a: usize, b: usize| {
                 if rows[b][column].abs() > rows[a][column].abs() { b } else { a }
@@ -420,23 +512,37 @@ impl Newton {
             if rows[pivot][column] == 0.0 {
                 return None;
             }
+            pivots[column] = pivot;
             rows.swap(column, pivot);
             let own = rows[column];
-            for row in rows.iter_mut().skip(column + 1) {
+            for row in &mut rows[column + 1..] {
                 let factor = row[column] / own[column];
+                row[column] = factor;
                 if factor != 0.0 {
-                    for (value, own) in row.iter_mut().zip(&own).skip(column) {
+                    for (value, own) in row[column + 1..].iter_mut().zip(&own[column + 1..]) {
                         *value -= factor * own;
                     }
                 }
             }
         }
-        let mut found = [0.0; UNKNOWNS];
-        for i in (0..UNKNOWNS).rev() {
-            let known: f64 = (i + 1..UNKNOWNS).map(|j| rows[i][j] * found[j]).sum();
-            found[i] = (rows[i][UNKNOWNS] - known) / rows[i][i];
+        Some(Self { rows, pivots })
+    }
+
+    /// What takes away what is off.
+    fn solve(&self, mut off: [f64; UNKNOWNS]) -> [f64; UNKNOWNS] {
+        for (column, pivot) in self.pivots.iter().enumerate() {
+            off.swap(column, *pivot);
         }
-        Some(found)
+        for i in 0..UNKNOWNS {
+            let known: f64 = self.rows[i][..i].iter().zip(&off).map(|(l, x)| l * x).sum();
+            off[i] -= known;
+        }
+        for i in (0..UNKNOWNS).rev() {
+            let row = &self.rows[i];
+            let known: f64 = row[i + 1..].iter().zip(&off[i + 1..]).map(|(u, x)| u * x).sum();
+            off[i] = (off[i] - known) / row[i];
+        }
+        off
     }
 }
 

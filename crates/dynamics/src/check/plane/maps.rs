@@ -1,0 +1,430 @@
+//! The linear part of the motion in a plane: springs, dampers and inertia, in physical coordinates.
+//!
+//! Of the degrees that move together, `y = (x, v)`:
+//!
+//! ```text
+//! ẏ = A y + B_a a(t) + B φ(t)        a linear in t,  φ the force of the slider on the block, over its mass
+//! ```
+//!
+//! φ is the polynomial through its values at the nodes of a step. With `g_0 = y(0)`, `g_1 = A g_0 + B_a a(0)`,
+//! `g_2 = A g_1 + B_a ȧ`, `g_{l+1} = A g_l`, and the `l + 1`-fold integrals `I^{l+1}` of Lagrange's polynomials `L_k`,
+//!
+//! ```text
+//! y(c h) = Σ_l (c h)^l/l! g_l  +  Σ_k Σ_l h^{l+1} (I^{l+1} L_k)(c) A^l B φ_k
+//! ```
+//!
+//! which a step of at most a radian ends at rounding after [`TERMS`] terms. The same sums of unit vectors are the maps
+//! of a step that comes again and again.
+
+use super::super::collocation::{NODES, Rule};
+use super::frame::{Loads, Pair, PlaneFrame};
+use super::step::MOST_RADIANS;
+use std::sync::LazyLock;
+
+/// Where a step ends up: its nodes, and its end.
+pub(super) const TARGETS: usize = NODES + 1;
+/// Most terms of a sum over a radian: the next is below rounding of what matrices that are not normal make of it.
+const TERMS: usize = 24;
+/// Parts of a range over which Lagrange's polynomials are integrated, by Gauss's rule in each.
+const PANELS: usize = 4;
+
+/// `(I^{l+1} L_k)(c)` at the targets.
+type Integrals = [[[f64; NODES]; TARGETS]; TERMS];
+
+fn integrals() -> &'static Integrals {
+    static INTEGRALS: LazyLock<Box<Integrals>> = LazyLock::new(|| {
+        let rule = Rule::get();
+        let lagrange = |k: usize, t: f64| {
+            let others = (0..NODES).filter(|&j| j != k);
+            others.map(|j| (t - rule.c[j]) / (rule.c[k] - rule.c[j])).product::<f64>()
+        };
+        let mut all = Box::new([[[0.0; NODES]; TARGETS]; TERMS]);
+        for p in 0..TARGETS {
+            let c = rule.points[1 + p];
+            for panel in 0..PANELS {
+                for (node, weight) in rule.c.iter().zip(&rule.weights) {
+                    let t = c * (panel as f64 + node) / PANELS as f64;
+                    let values: [f64; NODES] = core::array::from_fn(|k| lagrange(k, t));
+                    // (c − t)^l/l!
+                    let mut kernel = c * weight / PANELS as f64;
+                    for (l, of_order) in all.iter_mut().enumerate() {
+                        for (sum, value) in of_order[p].iter_mut().zip(values) {
+                            *sum += kernel * value;
+                        }
+                        kernel *= (c - t) / (l + 1) as f64;
+                    }
+                }
+            }
+        }
+        all
+    });
+    &INTEGRALS
+}
+
+/// How many terms a sum takes over so many radians: four where nothing but the table moves a free block.
+fn terms(radians: f64) -> usize {
+    let (mut count, mut size) = (4, radians * radians * radians / 6.0);
+    while count < TERMS && size > 1e-21 {
+        size *= radians / count as f64;
+        count += 1;
+    }
+    count
+}
+
+/// Degrees of freedom that move together.
+struct Group {
+    /// Their places in a state; those of the block come first.
+    degrees: Vec<usize>,
+    /// Axes of the block among them, in that order.
+    axes: Vec<usize>,
+    /// Of each degree, its acceleration by places in `y`: factors that are not 0.
+    rates: Vec<Vec<(usize, f64)>>,
+    /// Accelerations of a unit of the table's along each axis.
+    of_table: Vec<Vec<f64>>,
+    /// `A^l B` of a unit force along each axis.
+    of_force: Vec<Vec<Vec<f64>>>,
+}
+
+impl Group {
+    fn size(&self) -> usize {
+        2 * self.degrees.len()
+    }
+
+    /// `A y`.
+    fn apply(&self, y: &[f64], to: &mut [f64]) {
+        let d = self.degrees.len();
+        to[..d].copy_from_slice(&y[d..]);
+        for (to, row) in to[d..].iter_mut().zip(&self.rates) {
+            *to = row.iter().map(|(place, factor)| factor * y[*place]).sum();
+        }
+    }
+
+    /// `g_l` of a motion under a table's acceleration and its slope, for so many terms.
+    fn derivatives(&self, y: &[f64], loads: [Pair; 2], terms: usize, all: &mut Vec<f64>) {
+        let (m, d) = (self.size(), self.degrees.len());
+        all.clear();
+        all.extend_from_slice(y);
+        all.resize(terms * m, 0.0);
+        for l in 1..terms {
+            let (known, next) = all.split_at_mut(l * m);
+            self.apply(&known[(l - 1) * m..], &mut next[..m]);
+            let Some(load) = loads.get(l - 1) else { continue };
+            for (axis, rates) in self.axes.iter().zip(&self.of_table) {
+                for (to, rate) in next[d..m].iter_mut().zip(rates) {
+                    *to += rate * load[*axis];
+                }
+            }
+        }
+    }
+
+    /// `Σ_l τ^l/l! g_l`.
+    fn sum(&self, derivatives: &[f64], tau: f64, to: &mut [f64]) {
+        let m = self.size();
+        to.fill(0.0);
+        let mut power = 1.0;
+        for (l, g) in derivatives.chunks_exact(m).enumerate() {
+            if l > 0 {
+                power *= tau / l as f64;
+            }
+            for (to, g) in to.iter_mut().zip(g) {
+                *to += power * g;
+            }
+        }
+    }
+
+    /// Factors of `A^l B` at a target of a step for a unit of φ at a node.
+    fn shares(step_s: f64, terms: usize, target: usize, node: usize) -> [f64; TERMS] {
+        let (all, mut shares, mut power) = (integrals(), [0.0; TERMS], step_s);
+        for l in 0..terms {
+            shares[l] = power * all[l][target][node];
+            power *= step_s;
+        }
+        shares
+    }
+}
+
+/// What forces at the nodes do to `w` and `s` at the nodes: along axis `a` at node `j` of one along `b` at node `k`
+/// at `[a][b][j][k]`.
+pub(super) struct Influence {
+    pub(super) of_w: Blocks,
+    pub(super) of_s: Blocks,
+}
+
+/// A number for each pair of axes and of nodes.
+pub(super) type Blocks = [[[[f64; NODES]; NODES]; 2]; 2];
+
+/// The maps of a step of one length.
+struct Maps {
+    step_s: f64,
+    /// Group by group, target by target, row by row of `y`: factors of `y` at the start, then of the table's
+    /// accelerations along the axes, then of their slopes.
+    free: Vec<Vec<f64>>,
+    /// Target by target, row by row: factors of the forces, node by node for each axis.
+    forced: Vec<Vec<f64>>,
+    influence: Box<Influence>,
+}
+
+/// Masses, springs and dampers where the block rests, or where it slides.
+pub(super) struct Linear {
+    groups: Vec<Group>,
+    /// An upper bound on the fastest rate, in 1/s.
+    rate: f64,
+    /// The maps of steps that come again and again.
+    maps: Vec<Maps>,
+}
+
+/// The table's accelerations at the start of a step, and their slopes.
+fn of_table(loads: &[Loads; 2], step_s: f64) -> [Pair; 2] {
+    let [from, to] = loads.each_ref().map(|loads| [loads[0].a, loads[1].a]);
+    let slope = |axis: usize| if step_s > 0.0 { (to[axis] - from[axis]) / step_s } else { 0.0 };
+    [from, [slope(0), slope(1)]]
+}
+
+impl Linear {
+    pub(super) fn new(frame: &PlaneFrame<'_>, slips: bool) -> Self {
+        let d = frame.degrees();
+        let all: Vec<usize> = (0..d).collect();
+        let split = || [0, 1].map(|axis| all.iter().copied().filter(|k| k % 2 == axis).collect());
+        let groups: Vec<(Vec<usize>, Vec<usize>)> = match frame.points {
+            Some(_) => vec![(all, vec![0, 1])],
+            None => split().into_iter().zip([vec![0], vec![1]]).collect(),
+        };
+        let groups = groups.into_iter().map(|(degrees, axes)| {
+            let unit = |place: usize| {
+                let mut list = vec![0.0; d];
+                list[place] = 1.0;
+                list
+            };
+            let none = vec![0.0; d];
+            let n = degrees.len();
+            let mut rates = vec![Vec::new(); n];
+            for place in 0..2 * n {
+                let one = unit(degrees[place % n]);
+                let [x, v] = if place < n { [&one, &none] } else { [&none, &one] };
+                let column = frame.accelerations([x, v], [[0.0; 2]; 2], slips);
+                for (row, degree) in rates.iter_mut().zip(&degrees) {
+                    if column[*degree] != 0.0 {
+                        row.push((place, column[*degree]));
+                    }
+                }
+            }
+            let of_loads = |a: Pair, force: Pair| -> Vec<f64> {
+                let whole = frame.accelerations([&none, &none], [a, force], slips);
+                degrees.iter().map(|degree| whole[*degree]).collect()
+            };
+            let along = |axis: usize| [0, 1].map(|other| if other == axis { 1.0 } else { 0.0 });
+            let of_table = axes.iter().map(|axis| of_loads(along(*axis), [0.0; 2])).collect();
+            let starts: Vec<Vec<f64>> =
+                axes.iter().map(|axis| of_loads([0.0; 2], along(*axis))).collect();
+            let mut group = Group { degrees, axes, rates, of_table, of_force: Vec::new() };
+            let powers = |start: Vec<f64>| {
+                let mut all = vec![[vec![0.0; n], start].concat()];
+                for l in 1..TERMS {
+                    let mut next = vec![0.0; 2 * n];
+                    group.apply(&all[l - 1], &mut next);
+                    all.push(next);
+                }
+                all
+            };
+            let of_force =
+                if slips { starts.into_iter().map(powers).collect() } else { Vec::new() };
+            group.of_force = of_force;
+            group
+        });
+        let rate = frame.linear_rates[usize::from(slips)];
+        Self { groups: groups.collect(), rate, maps: Vec::new() }
+    }
+
+    /// Keeps the maps of a step of a length.
+    pub(super) fn keep(&mut self, step_s: f64) {
+        let terms = terms(self.rate * step_s);
+        let mut maps = Maps {
+            step_s,
+            free: Vec::new(),
+            forced: Vec::new(),
+            influence: Box::new(self.influence(step_s)),
+        };
+        for group in &self.groups {
+            let (m, axes) = (group.size(), group.axes.len());
+            let width = m + 2 * axes;
+            let mut free = vec![0.0; TARGETS * m * width];
+            let (mut derivatives, mut y) = (Vec::new(), vec![0.0; m]);
+            for column in 0..width {
+                let mut start = vec![0.0; m];
+                let mut loads = [[0.0; 2]; 2];
+                match column.checked_sub(m) {
+                    None => start[column] = 1.0,
+                    Some(load) => loads[load / axes][group.axes[load % axes]] = 1.0,
+                }
+                group.derivatives(&start, loads, terms, &mut derivatives);
+                for target in 0..TARGETS {
+                    group.sum(&derivatives, Rule::get().points[1 + target] * step_s, &mut y);
+                    for (row, value) in y.iter().enumerate() {
+                        free[(target * m + row) * width + column] = *value;
+                    }
+                }
+            }
+            let columns = NODES * group.of_force.len();
+            let mut forced = vec![0.0; TARGETS * m * columns];
+            for (axis, powers) in group.of_force.iter().enumerate() {
+                for (target, node) in (0..TARGETS).flat_map(|t| (0..NODES).map(move |n| (t, n))) {
+                    let shares = Group::shares(step_s, terms, target, node);
+                    for row in 0..m {
+                        let sum: f64 =
+                            shares[..terms].iter().zip(powers).map(|(f, p)| f * p[row]).sum();
+                        forced[(target * m + row) * columns + axis * NODES + node] = sum;
+                    }
+                }
+            }
+            maps.free.push(free);
+            maps.forced.push(forced);
+        }
+        self.maps.push(maps);
+    }
+
+    /// The maps of a step of a length, as near as a time can tell, if they are kept.
+    fn maps(&self, step_s: f64, instant_s: f64) -> Option<&Maps> {
+        self.maps.iter().find(|maps| (maps.step_s - step_s).abs() <= instant_s)
+    }
+
+    /// In how many steps a length is gone through.
+    pub(super) fn parts(&self, length_s: f64) -> f64 {
+        libm::ceil(self.rate * length_s / MOST_RADIANS * (1.0 - 1e-9)).max(1.0)
+    }
+
+    /// The motion at the targets of a step without force: `x` and `v` one after the other, target by target.
+    pub(super) fn free(
+        &self,
+        [x, v]: [&[f64]; 2],
+        loads: &[Loads; 2],
+        (step_s, instant_s): (f64, f64),
+        states: &mut [f64],
+    ) {
+        let (d, loads) = (x.len(), of_table(loads, step_s));
+        let maps = self.maps(step_s, instant_s);
+        let terms = terms(self.rate * step_s);
+        let (mut derivatives, mut end, mut start) = (Vec::new(), Vec::new(), Vec::new());
+        for (g, group) in self.groups.iter().enumerate() {
+            let m = group.size();
+            let place = |row: usize| match row.checked_sub(group.degrees.len()) {
+                None => group.degrees[row],
+                Some(row) => d + group.degrees[row],
+            };
+            start.clear();
+            start.extend(group.degrees.iter().map(|k| x[*k]));
+            start.extend(group.degrees.iter().map(|k| v[*k]));
+            if let Some(maps) = maps {
+                loads.iter().for_each(|load| start.extend(group.axes.iter().map(|k| load[*k])));
+                let rows = maps.free[g].chunks_exact(start.len());
+                for (i, row) in rows.enumerate() {
+                    states[i / m * 2 * d + place(i % m)] = product(row, &start);
+                }
+                continue;
+            }
+            group.derivatives(&start, loads, terms, &mut derivatives);
+            end.resize(m, 0.0);
+            for target in 0..TARGETS {
+                group.sum(&derivatives, Rule::get().points[1 + target] * step_s, &mut end);
+                for (row, value) in end.iter().enumerate() {
+                    states[target * 2 * d + place(row)] = *value;
+                }
+            }
+        }
+    }
+
+    /// Adds what forces at the nodes do.
+    pub(super) fn add_forced(
+        &self,
+        forces: &[[f64; NODES]; 2],
+        (step_s, instant_s): (f64, f64),
+        states: &mut [f64],
+    ) {
+        let d = states.len() / (2 * TARGETS);
+        let maps = self.maps(step_s, instant_s);
+        let terms = terms(self.rate * step_s);
+        for (g, group) in self.groups.iter().enumerate() {
+            let (m, n) = (group.size(), group.degrees.len());
+            let place = |row: usize| match row.checked_sub(n) {
+                None => group.degrees[row],
+                Some(row) => d + group.degrees[row],
+            };
+            if let Some(maps) = maps {
+                let all: Vec<f64> = group.axes.iter().flat_map(|axis| forces[*axis]).collect();
+                for (i, row) in maps.forced[g].chunks_exact(all.len()).enumerate() {
+                    states[i / m * 2 * d + place(i % m)] += product(row, &all);
+                }
+                continue;
+            }
+            for (axis, powers) in group.axes.iter().zip(&group.of_force) {
+                for target in 0..TARGETS {
+                    let mut power = step_s;
+                    for (of_order, of_force) in integrals()[..terms].iter().zip(powers) {
+                        let moment = product(&of_order[target], &forces[*axis]);
+                        for (row, of_force) in of_force.iter().enumerate() {
+                            states[target * 2 * d + place(row)] += power * moment * of_force;
+                        }
+                        power *= step_s;
+                    }
+                }
+            }
+        }
+    }
+
+    /// What forces at the nodes of a step do to the block at the nodes.
+    fn influence(&self, step_s: f64) -> Influence {
+        let terms = terms(self.rate * step_s);
+        let zero = [[[[0.0; NODES]; NODES]; 2]; 2];
+        let mut all = Influence { of_w: zero, of_s: zero };
+        for group in &self.groups {
+            let n = group.degrees.len();
+            for (by, powers) in group.axes.iter().zip(&group.of_force) {
+                for (place, along) in group.axes.iter().enumerate() {
+                    let of_s = &mut all.of_s[*along][*by];
+                    let of_w = &mut all.of_w[*along][*by];
+                    let mut power = step_s;
+                    for (of_order, of_force) in integrals()[..terms].iter().zip(powers) {
+                        add(of_s, power * of_force[place], of_order);
+                        add(of_w, power * of_force[n + place], of_order);
+                        power *= step_s;
+                    }
+                }
+            }
+        }
+        all
+    }
+
+    /// The same, made once for a step that comes again.
+    pub(super) fn with_influence<T>(
+        &self,
+        (step_s, instant_s): (f64, f64),
+        of: impl FnOnce(&Influence) -> T,
+    ) -> T {
+        match self.maps(step_s, instant_s) {
+            Some(maps) => of(&maps.influence),
+            None => of(&self.influence(step_s)),
+        }
+    }
+}
+
+/// Adds a multiple of integrals, at the nodes.
+fn add(to: &mut [[f64; NODES]; NODES], factor: f64, integrals: &[[f64; NODES]; TARGETS]) {
+    if factor != 0.0 {
+        for (to, from) in to.iter_mut().zip(integrals) {
+            to.iter_mut().zip(from).for_each(|(to, from)| *to += factor * from);
+        }
+    }
+}
+
+/// `Σ a_i b_i`, in four sums.
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    let (fours, rest) = a.as_chunks::<4>();
+    let (of_b, rest_of_b) = b.as_chunks::<4>();
+    let mut sums = [0.0; 4];
+    for (a, b) in fours.iter().zip(of_b) {
+        for i in 0..4 {
+            sums[i] += a[i] * b[i];
+        }
+    }
+    let rest: f64 = rest.iter().zip(rest_of_b).map(|(a, b)| a * b).sum();
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+}
