@@ -100,6 +100,12 @@ fn alarm_in_plane(seed: u64) -> Option<String> {
     alarm_of(&model, &motion)
 }
 
+/// What passes rest slower than rounding tells, and turned to a direction on the way.
+#[test]
+fn models_in_two_directions_that_once_raised_an_alarm_raise_none() {
+    assert_eq!(alarm_in_plane(594), None);
+}
+
 #[test]
 fn prop_models_in_two_directions_raise_no_alarm() {
     none_of(0..80, alarm_in_plane);

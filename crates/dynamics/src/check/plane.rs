@@ -122,7 +122,9 @@ fn fades_alike(rate: &RateLaw) -> bool {
 
 /// What is stored along x and along y: at every knot the table's acceleration, `s`, `ṡ`, the block's acceleration
 /// and `T`, and of every storey `q`, `q̇` and its acceleration.
-fn lists<'a>(h: &'a History, y: &'a HistoryAlongY) -> [[&'a [f64]; 8]; 2] {
+type Lists<'a> = [[&'a [f64]; 8]; 2];
+
+fn lists<'a>(h: &'a History, y: &'a HistoryAlongY) -> Lists<'a> {
     [
         [
             &h.table_acceleration_m_per_s2,

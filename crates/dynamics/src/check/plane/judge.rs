@@ -8,9 +8,9 @@ use super::super::law::StickDemand;
 use super::super::structure::{excess, larger};
 use super::super::{ClosestCall, DecisionKind};
 use super::frame::{Forces, Loads, Pair, PlaneFrame, norm, unit};
-use super::lists;
 use super::peaks::{Acting, Peaks, Tracked};
 use super::step::{State, Stepper};
+use super::{Lists, lists};
 use crate::error::Stopped;
 use crate::response::{HistoryAlongY, InPlane, Mode};
 use crate::slider::Direction;
@@ -51,6 +51,7 @@ pub(super) struct Minima {
 pub(super) struct Plane<'a> {
     pub(super) printed: &'a InPlane,
     pub(super) along_y: &'a HistoryAlongY,
+    lists: Lists<'a>,
     pub(super) stepper: Stepper<'a>,
     /// The table along y.
     pub(super) ground_y: Ground<'a>,
@@ -90,6 +91,7 @@ impl<'a> PlaneJudge<'a> {
         let plane = Plane {
             printed,
             along_y,
+            lists: lists(given.history, along_y),
             stepper: Stepper::new(frame, given.motion.dt_s(), end_s),
             ground_y,
             peaks: Peaks::new(&Tracked { frame, outputs: given.outputs, line: None }),
@@ -243,7 +245,7 @@ impl Directions for PlaneJudge<'_> {
     }
 
     fn stored(&self, k: usize, degree: usize) -> [f64; 2] {
-        let lists = lists(self.h, self.axes.along_y);
+        let lists = &self.axes.lists;
         let by_modes = self.frame().points.is_some();
         let list = lists[if by_modes && degree >= 2 { 0 } else { degree % 2 }];
         match degree.checked_sub(2) {
@@ -280,7 +282,7 @@ impl Directions for PlaneJudge<'_> {
     }
 
     fn measure(&mut self) -> Result<bool, Stopped> {
-        let lists = lists(self.h, self.axes.along_y);
+        let lists = self.axes.lists;
         let finite = lists.iter().flatten().copied().flatten().all(|value| value.is_finite());
         let most = |list: &[f64]| list.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         let mut sizes = Sizes {

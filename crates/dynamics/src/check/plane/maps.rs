@@ -428,3 +428,119 @@ fn product(a: &[f64], b: &[f64]) -> f64 {
     let rest: f64 = rest.iter().zip(rest_of_b).map(|(a, b)| a * b).sum();
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::ground::Load;
+    use super::super::super::law::Law;
+    use super::*;
+    use crate::model::{AlongY, Block, Damping, Frame, InitialState, Model, Slider};
+    use crate::slider::Friction;
+
+    /// A frame on a pendulum, stiffer along y.
+    fn model(storeys: usize) -> Model {
+        let stiffnesses =
+            |factor: f64| (0..storeys).map(|i| factor * (3e5 - 5e4 * i as f64)).collect();
+        let frame = Frame {
+            masses_kg: vec![300.0; storeys],
+            stiffnesses_n_per_m: stiffnesses(1.0),
+            damping: Damping::Ratio(0.02),
+            heights_m: None,
+        };
+        let along_y = AlongY {
+            stiffnesses_n_per_m: stiffnesses(1.3),
+            damping: Damping::Ratio(0.03),
+            width_m: None,
+            initial: InitialState::rest(),
+        };
+        let slider = Slider::pendulum(Friction::new(0.07, 0.06).unwrap(), 2.2);
+        let block = Block { mass_kg: 1000.0, width_m: None, height_m: None };
+        Model::new(block, slider, frame, 9.81, InitialState::rest())
+            .and_then(|model| model.with_along_y(along_y))
+            .unwrap()
+    }
+
+    fn loads() -> [Loads; 2] {
+        [[1.3, -0.4], [0.2, 0.9]].map(|a| a.map(|a| Load { a, ..Load::default() }))
+    }
+
+    /// Numbers that repeat themselves in no simple way.
+    fn numbers(count: usize) -> Vec<f64> {
+        (1..=count).map(|k| libm::sin((k * k) as f64)).collect()
+    }
+
+    #[test]
+    fn kept_maps_are_the_sums_that_they_are_made_of() {
+        let model = model(3);
+        let law = Law::new(&model, false);
+        let frame = PlaneFrame::new(&model, false, &law, 1.0);
+        let d = frame.degrees();
+        for slips in [false, true] {
+            let [sums, mut kept] = [0, 1].map(|_| Linear::new(&frame, slips));
+            let step_s = 0.9 / kept.rate;
+            kept.keep(step_s);
+            let length = (step_s, 1e-16);
+            let (x, v) = (numbers(d), numbers(2 * d)[d..].to_vec());
+            let forces = [0, 1].map(|i| core::array::from_fn(|k| libm::cos((3 * k + i) as f64)));
+            let ends = [&sums, &kept].map(|linear| {
+                let mut states = vec![0.0; 2 * d * TARGETS];
+                linear.free([&x, &v], &loads(), length, &mut states);
+                if slips {
+                    linear.add_forced(&forces, length, &mut states);
+                }
+                states
+            });
+            let largest = ends[0].iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+            for (a, b) in ends[0].iter().zip(&ends[1]) {
+                assert!((a - b).abs() <= 1e-14 * largest, "{a} {b}");
+            }
+            if slips {
+                // The block's part at the nodes is what the influence of the forces says.
+                let mut states = vec![0.0; 2 * d * TARGETS];
+                kept.add_forced(&forces, length, &mut states);
+                kept.with_influence(length, |influence| {
+                    for (j, a) in (0..NODES).flat_map(|j| [(j, 0), (j, 1)]) {
+                        let sum = |blocks: &Blocks| -> f64 {
+                            (0..2).map(|b| product(&blocks[a][b][j], &forces[b])).sum()
+                        };
+                        let [s, w] = [sum(&influence.of_s), sum(&influence.of_w)];
+                        assert!((s - states[2 * d * j + a]).abs() <= 1e-15 * largest);
+                        assert!((w - states[2 * d * j + d + a]).abs() <= 1e-15 * largest);
+                    }
+                });
+            }
+        }
+    }
+
+    /// A storey on a block that rests: a damped oscillator under an acceleration that is linear in time.
+    #[test]
+    fn an_oscillator_moves_as_its_closed_form() {
+        let model = model(1);
+        let law = Law::new(&model, false);
+        let frame = PlaneFrame::new(&model, false, &law, 1.0);
+        let linear = Linear::new(&frame, false);
+        let step_s = 1.0 / linear.rate;
+        let (x, v) = ([0.0, 0.0, 0.01, -0.02], [0.0, 0.0, 0.3, 0.1]);
+        let mut states = vec![0.0; 2 * 4 * TARGETS];
+        linear.free([&x, &v], &loads(), (step_s, 0.0), &mut states);
+        let of = [(3e5_f64, 0.02), (1.3 * 3e5, 0.03)];
+        for (axis, (stiffness, ratio)) in of.into_iter().enumerate() {
+            let omega = libm::sqrt(stiffness / 300.0);
+            let [from, to] = loads().map(|loads| loads[axis].a);
+            let slope = (to - from) / step_s;
+            // q = c + m t + e^(−ξωt) (A cos ω_d t + B sin ω_d t)
+            let m = -slope / (omega * omega);
+            let c = -(from + 2.0 * ratio * omega * m) / (omega * omega);
+            let damped = omega * libm::sqrt(1.0 - ratio * ratio);
+            let a = x[2 + axis] - c;
+            let b = (v[2 + axis] - m + ratio * omega * a) / damped;
+            for target in 0..TARGETS {
+                let t = Rule::get().points[1 + target] * step_s;
+                let wave = a * libm::cos(damped * t) + b * libm::sin(damped * t);
+                let q = c + m * t + libm::exp(-ratio * omega * t) * wave;
+                let found = states[8 * target + 2 + axis];
+                assert!((found - q).abs() < 1e-16, "{found} {q}");
+            }
+        }
+    }
+}

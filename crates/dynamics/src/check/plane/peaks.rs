@@ -254,6 +254,24 @@ impl Peaks {
         tells
     }
 
+    /// Whether what [`raise`] and [`raise_size`] take for possible between values at the points is below the peaks,
+    /// whichever these values are.
+    fn is_below(&self, g: usize, at: &[Vec<Pair>; POINTS]) -> bool {
+        let (mut square, mut most, mut sum) = (0.0_f64, [0.0_f64; 2], 0.0);
+        for vectors in at {
+            let [x, y] = vectors[g];
+            square = square.max(x * x + y * y);
+            most = [most[0].max(x.abs()), most[1].max(y.abs())];
+            sum += x + y;
+        }
+        let [whole, along @ ..] = &self.largest;
+        let is_axis_below = |axis: usize| 1.2 * most[axis] <= along[axis][g];
+        !f64::is_nan(sum)
+            && 1.21 * square <= whole[g] * whole[g]
+            && is_axis_below(0)
+            && is_axis_below(1)
+    }
+
     /// The same by the vectors at the points.
     fn raise(
         &mut self,
@@ -263,6 +281,10 @@ impl Peaks {
         coarse: bool,
     ) -> bool {
         for g in 0..tracked.len() {
+            let is_place = g + 1 == tracked.len();
+            if !is_place && self.is_below(g, at) {
+                continue;
+            }
             let parts: [[f64; POINTS]; 2] =
                 [0, 1].map(|axis| core::array::from_fn(|i| at[i][g][axis]));
             let part = |axis: usize, t: f64| rule.interpolate(&parts[axis], t);
@@ -275,7 +297,7 @@ impl Peaks {
             if !tells {
                 return false;
             }
-            if g + 1 == tracked.len() {
+            if is_place {
                 for (i, most) in self.sides_m.iter_mut().enumerate() {
                     let (axis, sign) = (i / 2, SIDES[i][i / 2]);
                     let values = parts[axis].map(|s| sign * s);
