@@ -16,7 +16,7 @@ const NEAR_REST: f64 = 1e-6;
 const SHORTEST_M: f64 = 1e-26;
 const SHORTEST_STRAIGHT_M: f64 = 2e-18;
 /// Defect of a step over the largest velocity.
-const DEFECT: f64 = 2e-15;
+pub(super) const DEFECT: f64 = 2e-15;
 /// Largest last Legendre coefficient over the largest acceleration: beyond it they say nothing.
 const TAIL: f64 = 1e-4;
 /// Most halvings to tell a peak.

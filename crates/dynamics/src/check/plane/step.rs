@@ -24,8 +24,9 @@ use super::peaks::Acting;
 use std::borrow::Cow;
 use std::sync::LazyLock;
 
-/// A velocity below this part of the largest in a step has no direction.
-const ROUNDING: f64 = 1e-9;
+/// A velocity below this part of the largest in a step has no direction; nor has one that the defect of a step may leave,
+/// if it is below the second part.
+const ROUNDING: [f64; 2] = [1e-9, 1e-3];
 /// Largest last Legendre coefficient over the largest force with which the polynomials are as good as the motion.
 pub(super) const FINE: f64 = 1e-10;
 /// Most radians of a step: what is linear is exact, the polynomials through the points of a radian are off by 5e-13.
@@ -89,6 +90,8 @@ pub(super) struct Step {
     /// `w` along x and along y, and its size.
     w: [[f64; POINTS]; 2],
     pub(super) speeds: [f64; POINTS],
+    /// A speed that has no direction.
+    faintest: f64,
     pub(super) loads: [Loads; POINTS],
     forces: [Forces; POINTS],
     /// `K q + C q̇`, point by point.
@@ -160,9 +163,7 @@ impl Step {
         let (w, Stretch { from_s, step_s, loads }) = (self.speed(point), &self.stretch);
         let beside = self.speed(if point == 0 { 1 } else { point - 1 });
         let under = (from_s + step_s, &loads[0], push);
-        if self.speeds[point] > ROUNDING * self.quickest()
-            && !frame.has_turned_about([w, beside], under)
-        {
+        if self.speeds[point] > self.faintest && !frame.has_turned_about([w, beside], under) {
             return times(w, 1.0 / self.speeds[point]);
         }
         let along = if frame.body.is_one() {
@@ -255,6 +256,8 @@ pub(super) struct Stepper<'a> {
     linear: [Linear; 2],
     /// Within which a length is that of another step.
     instant_s: f64,
+    /// A velocity that the defect of a step may leave, in m/s.
+    pub(super) left: f64,
 }
 
 impl<'a> Stepper<'a> {
@@ -266,7 +269,7 @@ impl<'a> Stepper<'a> {
                 linear.keep(sample_s / linear.parts(sample_s));
             }
         }
-        Self { frame, rule: Rule::get(), linear, instant_s: 4.0 * f64::EPSILON * end_s }
+        Self { frame, rule: Rule::get(), linear, instant_s: 4.0 * f64::EPSILON * end_s, left: 0.0 }
     }
 
     /// In how many parts a stretch is gone through in which nothing but what is linear bounds them.
@@ -427,7 +430,9 @@ impl<'a> Stepper<'a> {
             *acting = frame.forces(x, v, &loads[point], floors);
         }
         let w = [0, 1].map(|axis| core::array::from_fn(|point| at(point).1[axis]));
-        let speeds = core::array::from_fn(|point| norm([w[0][point], w[1][point]]));
+        let speeds: [f64; POINTS] = core::array::from_fn(|point| norm([w[0][point], w[1][point]]));
+        let quickest = speeds.iter().fold(0.0, |most: f64, speed| most.max(*speed));
+        let faintest = (ROUNDING[0] * quickest).max(self.left.min(ROUNDING[1] * quickest));
         let [x, y] = forces;
         let sharpest = x.iter().zip(y).map(|(x, y)| norm([*x, *y])).fold(0.0, f64::max);
         let mut tail = 0.0;
@@ -441,6 +446,7 @@ impl<'a> Stepper<'a> {
             degrees: d,
             w,
             speeds,
+            faintest,
             states,
             loads,
             forces: acting,
