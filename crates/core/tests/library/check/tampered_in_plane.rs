@@ -73,8 +73,8 @@ fn end_of_mode(h: &History, from: usize) -> usize {
     (from..h.len()).find(|&k| h.mode[k] != h.mode[from]).unwrap_or(h.len())
 }
 
-#[test]
-fn one_changed_value_shows_along_either_axis() {
+/// Changes values of every column, `apart` from each other, the first and the last among them.
+fn changed_values_show(apart: usize) {
     type Column = fn(&mut Response) -> &mut Vec<f64>;
     fn along_x(response: &mut Response) -> &mut History {
         response.history.as_mut().unwrap()
@@ -102,7 +102,7 @@ fn one_changed_value_shows_along_either_axis() {
         for (i, column) in columns.into_iter().enumerate() {
             let scale = peak(column(&mut response));
             let count = column(&mut response).len();
-            for j in (0..count).step_by(37).chain(count.checked_sub(1)) {
+            for j in (0..count).step_by(apart).chain(count.checked_sub(1)) {
                 let kept = column(&mut response)[j];
                 column(&mut response)[j] += 1e-7 * scale;
                 must_show(&system, &response, &format!("value {j} of column {i}"));
@@ -110,6 +110,18 @@ fn one_changed_value_shows_along_either_axis() {
             }
         }
     }
+}
+
+/// Few values of every column of every system; an odd number apart, so that storeys alternate.
+#[test]
+fn one_changed_value_shows_along_either_axis() {
+    changed_values_show(11 * 37);
+}
+
+#[test]
+#[ignore = "minutes: cargo xtask nightly"]
+fn one_changed_value_of_many_shows_along_either_axis() {
+    changed_values_show(37);
 }
 
 #[test]
@@ -253,8 +265,8 @@ fn changed_model_shows() {
     }
 }
 
-#[test]
-fn changed_demand_shows() {
+/// Changes demands up and down; those that are looked at are chosen by the numbers of system, demand, view and sign.
+fn changed_demands_show(looked_at: fn(usize, usize, usize, usize) -> bool) {
     type Number = fn(&mut Demands) -> Option<&mut f64>;
     let numbers: [Number; 20] = [
         |d| Some(&mut d.peak_sliding_displacement_m),
@@ -278,11 +290,14 @@ fn changed_demand_shows() {
         |d| Some(&mut d.sliding_path_m),
         |d| Some(&mut d.sliding_time_s),
     ];
-    for (system, response) in systems() {
+    for (s, (system, response)) in systems().into_iter().enumerate() {
         assert!(judge(&system, &response).holds());
         for (i, number) in numbers.into_iter().enumerate() {
             for view in 0..3 {
-                for part in [1.0 + 1e-6, 1.0 - 1e-6] {
+                for (sign, part) in [1.0 + 1e-6, 1.0 - 1e-6].into_iter().enumerate() {
+                    if !looked_at(s, i, view, sign) {
+                        continue;
+                    }
                     let mut tampered = response.clone();
                     let demands = match view {
                         0 => &mut tampered.demands,
@@ -318,6 +333,18 @@ fn changed_demand_shows() {
             must_show_in_demands(&system, &tampered, "an event left out");
         }
     }
+}
+
+/// Every demand of every system in one view and with one sign, the next ones in the next system.
+#[test]
+fn changed_demand_shows() {
+    changed_demands_show(|s, i, view, sign| view == (s + i) % 3 && sign == (s + i) % 2);
+}
+
+#[test]
+#[ignore = "minutes: cargo xtask nightly"]
+fn changed_demand_shows_in_every_view() {
+    changed_demands_show(|_, _, _, _| true);
 }
 
 /// What is not finite or not there is not judged.
