@@ -5,7 +5,7 @@ use super::super::structure::{excess, larger};
 use super::decisions::is_straight;
 use super::frame::{Loads, Pair, dot, norm, table, unit};
 use super::judge::{Place, PlaneJudge};
-use super::step::{FINE, State, Step, Stretch, time_to_rest};
+use super::step::{DEFECT, FINE, State, Step, Stretch, time_to_rest};
 use crate::error::Stopped;
 use crate::response::Mode;
 
@@ -15,8 +15,6 @@ const NEAR_REST: f64 = 1e-6;
 /// does nothing but slow down.
 const SHORTEST_M: f64 = 1e-26;
 const SHORTEST_STRAIGHT_M: f64 = 2e-18;
-/// Defect of a step over the largest velocity.
-pub(super) const DEFECT: f64 = 2e-15;
 /// Largest last Legendre coefficient over the largest acceleration: beyond it they say nothing.
 const TAIL: f64 = 1e-4;
 /// Most halvings to tell a peak.

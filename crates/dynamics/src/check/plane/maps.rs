@@ -18,11 +18,12 @@
 
 use super::super::collocation::{NODES, Rule};
 use super::frame::{Loads, Pair, PlaneFrame};
-use super::step::MOST_RADIANS;
 use std::sync::LazyLock;
 
 /// Where a step ends up: its nodes, and its end.
 pub(super) const TARGETS: usize = NODES + 1;
+/// Most radians of a step: what is linear is exact, the polynomials through the points of a radian are off by 5e-13.
+const MOST_RADIANS: f64 = 1.0;
 /// Most terms of a sum over a radian: the next is below rounding of what matrices that are not normal make of it.
 const TERMS: usize = 24;
 /// Parts of a range over which Lagrange's polynomials are integrated, by Gauss's rule in each.

@@ -29,8 +29,8 @@ use std::sync::LazyLock;
 const ROUNDING: [f64; 2] = [1e-9, 1e-3];
 /// Largest last Legendre coefficient over the largest force with which the polynomials are as good as the motion.
 pub(super) const FINE: f64 = 1e-10;
-/// Most radians of a step: what is linear is exact, the polynomials through the points of a radian are off by 5e-13.
-pub(super) const MOST_RADIANS: f64 = 1.0;
+/// Defect of a step over the largest velocity.
+pub(super) const DEFECT: f64 = 2e-15;
 /// Most passes of the iteration.
 const MOST_PASSES: usize = 40;
 /// Unknowns of the block at the nodes.
