@@ -32,7 +32,9 @@ impl Clone {
         eprintln!("{program} {arguments}");
         let clock = Instant::now();
         shell::run(&mut self.command(program, arguments))?;
-        Ok(clock.elapsed())
+        let took = clock.elapsed();
+        eprintln!("{program} {arguments}: {} s", took.as_secs());
+        Ok(took)
     }
 }
 
