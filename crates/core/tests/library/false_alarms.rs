@@ -100,10 +100,13 @@ fn alarm_in_plane(seed: u64) -> Option<String> {
     alarm_of(&model, &motion)
 }
 
-/// What passes rest slower than rounding tells, and turned to a direction on the way.
+/// What passes rest slower than rounding tells, and turned to a direction on the way; slips that are one step from rest to
+/// rest, whose last velocity has no direction; a push that friction exceeds by a part of 4e-4.
 #[test]
 fn models_in_two_directions_that_once_raised_an_alarm_raise_none() {
-    assert_eq!(alarm_in_plane(594), None);
+    for seed in [63, 535, 594, 1052, 5934] {
+        assert_eq!(alarm_in_plane(seed), None, "{seed}");
+    }
 }
 
 #[test]

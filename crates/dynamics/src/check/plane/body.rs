@@ -10,11 +10,14 @@
 use super::frame::{Pair, cross, dot, norm, times, unit};
 use crate::model::Structure;
 
-/// Part of a radian by which a way to rest is followed.
-const STEP: f64 = 0.02;
+/// Part of a radian by which a way to rest is followed, and by which the end of its turn is looked for.
+const STEP: f64 = 0.1;
+const LOOK: f64 = 0.02;
+/// Radians of a step by which a slip that comes to rest turns no more.
+const STRAIGHT: f64 = 1e-10;
 /// Part of the speed to which its time is told.
 const FOLLOWED: f64 = 1e-10;
-const MOST_STEPS: usize = 40_000;
+const MOST_STEPS: usize = 10_000;
 
 /// `A` over the mass of the block, and its inverse.
 #[derive(Clone, Copy)]
@@ -111,11 +114,11 @@ impl Body {
         if !(p < slowing) {
             return None;
         }
-        let bound_s = larger_eigenvalue(&self.rows) * r / (slowing - p);
-        if r * bound_s > 1e3 * longest_m {
-            return Some(bound_s);
+        let least_s = r / (self.most_compliant() * (slowing + p));
+        if !(r * least_s < longest_m) {
+            return Some(least_s);
         }
-        // Heun's method of third order.
+        // Runge and Kutta's method of fourth order.
         let step = STEP / (self.most_compliant() * (slowing + p));
         let (mut angle, mut left, mut time_s) = (libm::atan2(w[1], w[0]), 1.0_f64, 0.0);
         for _ in 0..MOST_STEPS {
@@ -123,13 +126,20 @@ impl Body {
                 break;
             }
             let a = self.rates(angle, push, slowing);
-            let b = self.rates(angle + step / 3.0 * a[0], push, slowing);
-            let c = self.rates(angle + 2.0 * step / 3.0 * b[0], push, slowing);
-            let next = left * libm::exp(0.25 * step * (a[1] + 3.0 * c[1]));
-            // ∫ left dτ by the mean of an exponential.
-            let fall = libm::log(left / next);
-            time_s += step * if fall.abs() > 1e-9 { (left - next) / fall } else { left };
-            angle += 0.25 * step * (a[0] + 3.0 * c[0]);
+            if a[0].abs() * step <= STRAIGHT && a[1] < 0.0 {
+                // It turns no more: its speed falls like an exponential of τ.
+                time_s -= left / a[1];
+                break;
+            }
+            let b = self.rates(angle + 0.5 * step * a[0], push, slowing);
+            let c = self.rates(angle + 0.5 * step * b[0], push, slowing);
+            let d = self.rates(angle + step * c[0], push, slowing);
+            let [turn, slow] = [0, 1].map(|i| step / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]));
+            let next = left * libm::exp(slow);
+            // ∫ left dτ by Simpson's rule.
+            let half = step / 24.0 * (5.0 * a[1] + 4.0 * (b[1] + c[1]) - d[1]);
+            time_s += step / 6.0 * (left + 4.0 * left * libm::exp(half) + next);
+            angle += turn;
             left = next.max(f64::MIN_POSITIVE);
         }
         Some(r * time_s)
@@ -144,7 +154,7 @@ impl Body {
         if first == 0.0 {
             return from;
         }
-        let step = STEP.copysign(first);
+        let step = LOOK.copysign(first);
         let (mut before, mut after) = (start, start + step);
         while rate(after) * first > 0.0 {
             if (after - start).abs() > 2.0 * core::f64::consts::PI {

@@ -5,7 +5,7 @@ use super::super::structure::{excess, larger};
 use super::decisions::is_straight;
 use super::frame::{Loads, Pair, dot, norm, table, unit};
 use super::judge::{Place, PlaneJudge};
-use super::step::{DEFECT, FINE, State, Step, Stretch, time_to_rest};
+use super::step::{FINE, State, Step, Stretch, time_to_rest};
 use crate::error::Stopped;
 use crate::response::Mode;
 
@@ -17,6 +17,8 @@ const SHORTEST_M: f64 = 1e-26;
 const SHORTEST_STRAIGHT_M: f64 = 2e-18;
 /// Largest last Legendre coefficient over the largest acceleration: beyond it they say nothing.
 const TAIL: f64 = 1e-4;
+/// Defect of a step over the largest velocity.
+const DEFECT: f64 = 2e-15;
 /// Most halvings to tell a peak.
 const DEEPEST: u32 = 12;
 /// Most steps of an interval.
@@ -261,10 +263,14 @@ impl<'a> PlaneJudge<'a> {
         if r == 0.0 || f == 0.0 || (dot(w, push) >= 0.0 && p >= f) {
             return Reach::Free;
         }
-        // How fast it slows down; against the push it turns as well.
+        // How fast it slows down; against the push it turns as well, and with a mass in every direction it always does.
         let (along, body) = (dot(w, push) / r, &self.frame().body);
-        let slower = if along < 0.0 || !body.is_one() { f + p } else { f - along };
-        let reach_s = 0.5 * r / (body.most_compliant() * slower);
+        let slower = match (body.is_one(), along < 0.0) {
+            (true, true) => f + p,
+            (true, false) => f - along,
+            (false, _) => norm(body.moved([0, 1].map(|i| push[i] - f / r * w[i]))),
+        };
+        let reach_s = 0.5 * r / slower;
         if left_s <= reach_s {
             return Reach::Free;
         }

@@ -9,7 +9,7 @@ use super::super::structure::{excess, larger};
 use super::super::{ClosestCall, DecisionKind};
 use super::frame::{Forces, Loads, Pair, PlaneFrame, norm, unit};
 use super::peaks::{Acting, Peaks, Tracked};
-use super::step::{DEFECT, State, Stepper};
+use super::step::{State, Stepper};
 use super::{Lists, lists};
 use crate::error::Stopped;
 use crate::response::{HistoryAlongY, InPlane, Mode};
@@ -300,7 +300,6 @@ impl Directions for PlaneJudge<'_> {
             kinetic.push(self.frame().kinetic_energy(&state.v));
             strain.push(self.frame().strain(&state.x));
         }
-        self.axes.stepper.left = 100.0 * DEFECT * sizes.sliding;
         self.take_sizes(&sizes);
         let varies = self.ground.has_vertical();
         self.books = Books::new([kinetic, strain], 0.0, [varies, self.law.follows()]);

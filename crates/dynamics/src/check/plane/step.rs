@@ -24,13 +24,11 @@ use super::peaks::Acting;
 use std::borrow::Cow;
 use std::sync::LazyLock;
 
-/// A velocity below this part of the largest in a step has no direction; nor has one that the defect of a step may leave,
-/// if it is below the second part.
+/// A velocity below this part of the largest in a step has no direction; nor has one at its ends, where it is what a stop
+/// leaves, below the second part.
 const ROUNDING: [f64; 2] = [1e-9, 1e-3];
 /// Largest last Legendre coefficient over the largest force with which the polynomials are as good as the motion.
 pub(super) const FINE: f64 = 1e-10;
-/// Defect of a step over the largest velocity.
-pub(super) const DEFECT: f64 = 2e-15;
 /// Most passes of the iteration.
 const MOST_PASSES: usize = 40;
 /// Unknowns of the block at the nodes.
@@ -90,8 +88,8 @@ pub(super) struct Step {
     /// `w` along x and along y, and its size.
     w: [[f64; POINTS]; 2],
     pub(super) speeds: [f64; POINTS],
-    /// A speed that has no direction.
-    faintest: f64,
+    /// Directions of a slip at both ends by the polynomial of the force, if there is one.
+    ends: [Option<Pair>; 2],
     pub(super) loads: [Loads; POINTS],
     forces: [Forces; POINTS],
     /// `K q + C q̇`, point by point.
@@ -158,13 +156,20 @@ impl Step {
     }
 
     /// The direction of a slip at a point under a push. At rest, in which a slip begins and ends along the push,
-    /// what is left of the velocity is rounding; in straight motion it is that of the point beside it.
+    /// what is left of the velocity is rounding, and the force tells its direction; in straight motion it is that of the
+    /// point beside it.
     pub(super) fn heading(&self, frame: &PlaneFrame<'_>, point: usize, push: Pair) -> Pair {
         let (w, Stretch { from_s, step_s, loads }) = (self.speed(point), &self.stretch);
         let beside = self.speed(if point == 0 { 1 } else { point - 1 });
         let under = (from_s + step_s, &loads[0], push);
-        if self.speeds[point] > self.faintest && !frame.has_turned_about([w, beside], under) {
+        let is_end = point == 0 || point + 1 == POINTS;
+        let faintest = ROUNDING[usize::from(is_end)] * self.quickest();
+        if self.speeds[point] > faintest && !frame.has_turned_about([w, beside], under) {
             return times(w, 1.0 / self.speeds[point]);
+        }
+        let by_force = self.ends[usize::from(point > 0)].filter(|_| is_end);
+        if let Some(along) = by_force.filter(|_| self.speeds[point] > 0.0) {
+            return along;
         }
         let along = if frame.body.is_one() {
             unit(push)
@@ -256,8 +261,6 @@ pub(super) struct Stepper<'a> {
     linear: [Linear; 2],
     /// Within which a length is that of another step.
     instant_s: f64,
-    /// A velocity that the defect of a step may leave, in m/s.
-    pub(super) left: f64,
 }
 
 impl<'a> Stepper<'a> {
@@ -269,7 +272,7 @@ impl<'a> Stepper<'a> {
                 linear.keep(sample_s / linear.parts(sample_s));
             }
         }
-        Self { frame, rule: Rule::get(), linear, instant_s: 4.0 * f64::EPSILON * end_s, left: 0.0 }
+        Self { frame, rule: Rule::get(), linear, instant_s: 4.0 * f64::EPSILON * end_s }
     }
 
     /// In how many parts a stretch is gone through in which nothing but what is linear bounds them.
@@ -431,10 +434,13 @@ impl<'a> Stepper<'a> {
         }
         let w = [0, 1].map(|axis| core::array::from_fn(|point| at(point).1[axis]));
         let speeds: [f64; POINTS] = core::array::from_fn(|point| norm([w[0][point], w[1][point]]));
-        let quickest = speeds.iter().fold(0.0, |most: f64, speed| most.max(*speed));
-        let faintest = (ROUNDING[0] * quickest).max(self.left.min(ROUNDING[1] * quickest));
         let [x, y] = forces;
         let sharpest = x.iter().zip(y).map(|(x, y)| norm([*x, *y])).fold(0.0, f64::max);
+        let ends = [0, POINTS - 1].map(|point| {
+            let (kappa, x) = (self.stiffness(&loads[point]), at(point).0);
+            let of = |axis: usize| extrapolated(&forces[axis], usize::from(point > 0));
+            unit([0, 1].map(|axis| -of(axis) - kappa * x[axis]))
+        });
         let mut tail = 0.0;
         if sharpest > 0.0 {
             let last = forces.each_ref().map(last_coefficients);
@@ -446,7 +452,7 @@ impl<'a> Stepper<'a> {
             degrees: d,
             w,
             speeds,
-            faintest,
+            ends,
             states,
             loads,
             forces: acting,
@@ -471,6 +477,20 @@ fn moved(by: &Blocks, free: &[[f64; NODES]; 2], forces: &[[f64; NODES]; 2]) -> [
             free[a][j] + (of(0) + of(1))
         })
     })
+}
+
+/// The polynomial through values at the nodes, at the start or the end of a step.
+fn extrapolated(values: &[f64; NODES], end: usize) -> f64 {
+    static SHARES: LazyLock<[[f64; NODES]; 2]> = LazyLock::new(|| {
+        let c = &Rule::get().c;
+        [0.0, 1.0].map(|t| {
+            core::array::from_fn(|k| {
+                let others = (0..NODES).filter(|&j| j != k);
+                others.map(|j| (t - c[j]) / (c[k] - c[j])).product()
+            })
+        })
+    });
+    SHARES[end].iter().zip(values).map(|(share, value)| share * value).sum()
 }
 
 /// Sizes of the last two of Legendre's coefficients of values at the nodes.
