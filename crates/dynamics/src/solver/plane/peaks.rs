@@ -477,19 +477,18 @@ impl Peaks {
         }
     }
 
-    /// Notes the outputs that friction is part of on the arc at a stop, from `P`, `L g` and `g` at both of its ends.
+    /// Notes the outputs that friction is part of on the arc at a stop, from `P` and `L g` at both of its ends.
     pub(super) fn note_arc(
         &mut self,
         system: &System,
         arc: &Arc,
         (pulls, shears_n): ([[f64; 2]; 2], [[f64; 2]; 2]),
-        all_g: [&[f64]; 2],
+        g: &[f64],
     ) {
-        let g = all_g[1];
         let kg = system.block_kg;
         let slider = [0, 1].map(|i| [0, 1].map(|k| kg * pulls[i][k] - shears_n[i][k]));
         if system.mass.is_some() {
-            self.note_arc_of_block(system, arc, pulls, all_g);
+            self.note_arc_of_block(system, arc, pulls[1], g);
         }
         let block = (Output::Block, pulls, arc.friction);
         let of = [
@@ -523,45 +522,33 @@ impl Peaks {
 
 impl Peaks {
     /// The same of what a block with a mass in each direction is part of, `b = C (P − f u)`: over times as short as
-    /// that of the arc `P` and `g` go straight from what they are at its start to what they are at rest.
-    fn note_arc_of_block(
-        &mut self,
-        system: &System,
-        arc: &Arc,
-        pulls: [[f64; 2]; 2],
-        g: [&[f64]; 2],
-    ) {
-        let between = |[from, to]: [f64; 2], turned: f64| from + (to - from) * turned;
-        let block = |u: [f64; 2], turned: f64| {
-            let pull = |k: usize| between([pulls[0][k], pulls[1][k]], turned);
-            system.moved([0, 1].map(|k| pull(k) - arc.friction * u[k]))
-        };
+    /// that of the arc all but `u` stands.
+    fn note_arc_of_block(&mut self, system: &System, arc: &Arc, pull: [f64; 2], g: &[f64]) {
+        let block = |u: [f64; 2]| system.moved([0, 1].map(|k| pull[k] - arc.friction * u[k]));
         let points = self.points;
-        let mut raise = |output: Output, of: &dyn Fn([f64; 2], f64) -> [f64; 2]| {
+        let mut raise = |output: Output, of: &dyn Fn([f64; 2]) -> [f64; 2]| {
             let peak = &mut self.all[output.place(points)];
-            peak.norm = peak.norm.max(arc.largest(|u, turned| norm(of(u, turned))));
+            peak.norm = peak.norm.max(arc.largest(|u| norm(of(u))));
             for axis in 0..2 {
-                let size = arc.largest(|u, turned| of(u, turned)[axis].abs());
-                peak.axes[axis] = peak.axes[axis].max(size);
+                peak.axes[axis] = peak.axes[axis].max(arc.largest(|u| of(u)[axis].abs()));
             }
         };
         raise(Output::Block, &block);
         for (i, part) in system.with_block.iter().enumerate() {
-            let of_modes = [0, 1].map(|axis| g.map(|g| dot(system.floor(axis, i), g)));
-            let of = |u: [f64; 2], turned: f64| {
-                let of_block = times(part, block(u, turned));
-                [0, 1].map(|axis| of_block[axis] - between(of_modes[axis], turned))
+            let of_modes = [0, 1].map(|axis| dot(system.floor(axis, i), g));
+            let of = |u: [f64; 2]| {
+                let of_block = times(part, block(u));
+                [of_block[0] - of_modes[0], of_block[1] - of_modes[1]]
             };
             raise(Output::Acceleration(i), &of);
         }
         let moments = system
             .overturning
             .each_ref()
-            .map(|moment| moment.as_ref().map(|(arm, along)| (g.map(|g| dot(arm, g)), *along)));
-        let of = |u: [f64; 2], turned: f64| {
-            let b = block(u, turned);
-            let size = |(modes, along)| inner(along, b) - between(modes, turned);
-            moments.map(|moment| moment.map_or(0.0, size))
+            .map(|moment| moment.as_ref().map(|(arm, along)| (dot(arm, g), *along)));
+        let of = |u: [f64; 2]| {
+            let b = block(u);
+            moments.map(|moment| moment.map_or(0.0, |(modes, along)| inner(along, b) - modes))
         };
         raise(Output::Overturning, &of);
     }

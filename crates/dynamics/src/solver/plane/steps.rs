@@ -212,7 +212,6 @@ impl Plane<'_> {
     /// Comes to rest after a time too short to move in.
     fn rest(&mut self, at: &Instant, (loads, time_s): (&Loads, f64)) {
         let (w, from) = (self.state.w, (at.pull, self.system.shear_n(&self.scratch[0])));
-        let g = self.scratch[0].clone();
         // ∫ b dt = −w + a Θ
         let impulse = [0, 1].map(|k| loads.table[k][0] * time_s - self.state.w[k]);
         for j in 0..self.system.modes() {
@@ -225,7 +224,7 @@ impl Plane<'_> {
         let arc = at.arc(&self.system, w, &to);
         let shear_n = self.system.shear_n(&self.scratch[0]);
         let of = ([from.0, to.pull], [from.1, shear_n]);
-        self.peaks.note_arc(&self.system, &arc, of, [&g, &self.scratch[0]]);
+        self.peaks.note_arc(&self.system, &arc, of, &self.scratch[0]);
         self.direction = arc.to;
     }
 

@@ -165,14 +165,13 @@ impl Arc {
         if left.is_finite() { left.clamp(0.0, 1.0) } else { 0.0 }
     }
 
-    /// The largest of a function of the direction on it, and of the part of it that is turned, where that is no vector
-    /// less a multiple of the direction.
-    pub(super) fn largest(&self, of: impl Fn([f64; 2], f64) -> f64) -> f64 {
+    /// The largest of a function of the direction on it, where that is no vector less a multiple of it.
+    pub(super) fn largest(&self, of: impl Fn([f64; 2]) -> f64) -> f64 {
         let turn = libm::atan2(cross(self.from, self.to), inner(self.from, self.to));
         let at = |part: f64| {
             let (sine, cosine) = (libm::sin(part * turn), libm::cos(part * turn));
             let [x, y] = self.from;
-            of([cosine * x - sine * y, sine * x + cosine * y], part)
+            of([cosine * x - sine * y, sine * x + cosine * y])
         };
         let step = 1.0 / LOOKS as f64;
         let values: Vec<f64> = (0..=LOOKS).map(|i| at(step * i as f64)).collect();
