@@ -10,6 +10,9 @@ const NO_PATH_M: f64 = 1e-22;
 /// A bound on the path beyond which the way to rest of a block with a mass in each direction is not followed.
 const MASSIVE_PATH_M: f64 = 1e2 * NO_PATH_M;
 
+/// Part of friction by which a push may change over the last turn of a block with a mass in each direction.
+const STANDS: f64 = 1e-12;
+
 /// Parts of an arc that are looked at.
 const LOOKS: usize = 32;
 
@@ -73,7 +76,10 @@ impl Instant {
         let of_friction = per_n * loads.normal[1].abs();
         let rate =
             2.0 * inertia * compliance * self.rate_of_push(system, state, loads, g) + of_friction;
-        (p + rate * longest_s < f).then_some(time_s.max(0.0))
+        // What friction does in all directions of the last turn is told by the push at rest, which a block with a mass in
+        // each direction may be a while from.
+        let lasts = system.mass.is_none() || rate * longest_s < STANDS * f;
+        (lasts && p + rate * longest_s < f).then_some(time_s.max(0.0))
     }
 
     /// A bound on `|ṗ|` over times in which nothing but the direction of `w` changes: there `|b| ≤ |P| + f`.
