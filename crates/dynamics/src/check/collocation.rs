@@ -34,7 +34,7 @@ pub(super) struct Rule {
     /// Weights `b`.
     pub(super) weights: [f64; NODES],
     /// `A` and its square.
-    pub(super) a: [[f64; NODES]; NODES],
+    a: [[f64; NODES]; NODES],
     aa: [[f64; NODES]; NODES],
     /// 0, the nodes, 1.
     pub(super) points: [f64; POINTS],
@@ -68,11 +68,8 @@ impl Rule {
             weights[i] = 1.0 / ((1.0 - z * z) * slope * slope);
         }
         // The integral of Lagrange's polynomial over (0, c_i), by the rule itself: exact.
-        let lagrange = |j: usize, t: f64| {
-            (0..NODES).filter(|&k| k != j).map(|k| (t - c[k]) / (c[j] - c[k])).product::<f64>()
-        };
         let integral = |i: usize, j: usize| {
-            c[i] * (0..NODES).map(|k| weights[k] * lagrange(j, c[i] * c[k])).sum::<f64>()
+            c[i] * (0..NODES).map(|k| weights[k] * lagrange(&c, j, c[i] * c[k])).sum::<f64>()
         };
         let a: [[f64; NODES]; NODES] =
             core::array::from_fn(|i| core::array::from_fn(|j| integral(i, j)));
@@ -88,6 +85,11 @@ impl Rule {
             1.0 / gaps.product::<f64>()
         });
         Self { c, weights, a, aa, points, barycentric }
+    }
+
+    /// The polynomial that is 1 at a node and 0 at all others, at `t`.
+    pub(super) fn lagrange(&self, node: usize, t: f64) -> f64 {
+        lagrange(&self.c, node, t)
     }
 
     /// `x` and `v` at a node of a step of a length, from those at its start and `ẍ` at all nodes.
@@ -199,6 +201,11 @@ impl Rule {
         let node = (self.points[middle], at_point);
         if node.1 <= found.1 { node } else { found }
     }
+}
+
+/// Lagrange's polynomial of a node.
+fn lagrange(c: &[f64; NODES], j: usize, t: f64) -> f64 {
+    (0..NODES).filter(|&k| k != j).map(|k| (t - c[k]) / (c[j] - c[k])).product()
 }
 
 /// Most Legendre terms of a velocity.

@@ -15,10 +15,10 @@ const NEAR_REST: f64 = 1e-6;
 /// does nothing but slow down.
 const SHORTEST_M: f64 = 1e-26;
 const SHORTEST_STRAIGHT_M: f64 = 2e-18;
-/// Largest last Legendre coefficient over the largest acceleration: beyond it they say nothing.
-const TAIL: f64 = 1e-4;
 /// Defect of a step over the largest velocity.
 const DEFECT: f64 = 2e-15;
+/// Largest last Legendre coefficient over the largest force: beyond it they say nothing.
+const TAIL: f64 = 1e-4;
 /// Most halvings to tell a peak.
 const DEEPEST: u32 = 12;
 /// Most steps of an interval.

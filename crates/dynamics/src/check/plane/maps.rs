@@ -35,17 +35,13 @@ type Integrals = [[[f64; NODES]; TARGETS]; TERMS];
 fn integrals() -> &'static Integrals {
     static INTEGRALS: LazyLock<Box<Integrals>> = LazyLock::new(|| {
         let rule = Rule::get();
-        let lagrange = |k: usize, t: f64| {
-            let others = (0..NODES).filter(|&j| j != k);
-            others.map(|j| (t - rule.c[j]) / (rule.c[k] - rule.c[j])).product::<f64>()
-        };
         let mut all = Box::new([[[0.0; NODES]; TARGETS]; TERMS]);
         for p in 0..TARGETS {
             let c = rule.points[1 + p];
             for panel in 0..PANELS {
                 for (node, weight) in rule.c.iter().zip(&rule.weights) {
                     let t = c * (panel as f64 + node) / PANELS as f64;
-                    let values: [f64; NODES] = core::array::from_fn(|k| lagrange(k, t));
+                    let values: [f64; NODES] = core::array::from_fn(|k| rule.lagrange(k, t));
                     // (c − t)^l/l!
                     let mut kernel = c * weight / PANELS as f64;
                     for (l, of_order) in all.iter_mut().enumerate() {
@@ -133,14 +129,33 @@ impl Group {
         }
     }
 
-    /// Factors of `A^l B` at a target of a step for a unit of φ at a node.
-    fn shares(step_s: f64, terms: usize, target: usize, node: usize) -> [f64; TERMS] {
-        let (all, mut shares, mut power) = (integrals(), [0.0; TERMS], step_s);
-        for l in 0..terms {
-            shares[l] = power * all[l][target][node];
-            power *= step_s;
+    /// Hands on what forces at the nodes of a step add to each row of `y` at a target, term by term:
+    /// `Σ_k Σ_l h^{l+1} (I^{l+1} L_k)(c) A^l B φ_k`.
+    fn forced(
+        &self,
+        forces: &[[f64; NODES]; 2],
+        (step_s, terms): (f64, usize),
+        target: usize,
+        mut add: impl FnMut(usize, f64),
+    ) {
+        for (axis, powers) in self.axes.iter().zip(&self.of_force) {
+            let mut power = step_s;
+            for (of_order, of_force) in integrals()[..terms].iter().zip(powers) {
+                let moment = product(&of_order[target], &forces[*axis]);
+                for (row, of_force) in of_force.iter().enumerate() {
+                    add(row, power * moment * of_force);
+                }
+                power *= step_s;
+            }
         }
-        shares
+    }
+
+    /// The place of a row of `y` in a state of so many degrees, `x` and `v` one after the other.
+    fn place(&self, row: usize, degrees: usize) -> usize {
+        match row.checked_sub(self.degrees.len()) {
+            None => self.degrees[row],
+            Some(row) => degrees + self.degrees[row],
+        }
     }
 }
 
@@ -170,8 +185,8 @@ pub(super) struct Linear {
     groups: Vec<Group>,
     /// An upper bound on the fastest rate, in 1/s.
     rate: f64,
-    /// The maps of steps that come again and again.
-    maps: Vec<Maps>,
+    /// The maps of the step that comes again and again.
+    maps: Option<Maps>,
 }
 
 /// The table's accelerations at the start of a step, and their slopes.
@@ -233,7 +248,7 @@ impl Linear {
             group
         });
         let rate = frame.linear_rates[usize::from(slips)];
-        Self { groups: groups.collect(), rate, maps: Vec::new() }
+        Self { groups: groups.collect(), rate, maps: None }
     }
 
     /// Keeps the maps of a step of a length.
@@ -267,25 +282,24 @@ impl Linear {
             }
             let columns = NODES * group.of_force.len();
             let mut forced = vec![0.0; TARGETS * m * columns];
-            for (axis, powers) in group.of_force.iter().enumerate() {
-                for (target, node) in (0..TARGETS).flat_map(|t| (0..NODES).map(move |n| (t, n))) {
-                    let shares = Group::shares(step_s, terms, target, node);
-                    for row in 0..m {
-                        let sum: f64 =
-                            shares[..terms].iter().zip(powers).map(|(f, p)| f * p[row]).sum();
-                        forced[(target * m + row) * columns + axis * NODES + node] = sum;
-                    }
+            for column in 0..columns {
+                let mut forces = [[0.0; NODES]; 2];
+                forces[group.axes[column / NODES]][column % NODES] = 1.0;
+                for target in 0..TARGETS {
+                    group.forced(&forces, (step_s, terms), target, |row, value| {
+                        forced[(target * m + row) * columns + column] += value;
+                    });
                 }
             }
             maps.free.push(free);
             maps.forced.push(forced);
         }
-        self.maps.push(maps);
+        self.maps = Some(maps);
     }
 
     /// The maps of a step of a length, as near as a time can tell, if they are kept.
     fn maps(&self, step_s: f64, instant_s: f64) -> Option<&Maps> {
-        self.maps.iter().find(|maps| (maps.step_s - step_s).abs() <= instant_s)
+        self.maps.as_ref().filter(|maps| (maps.step_s - step_s).abs() <= instant_s)
     }
 
     /// In how many steps a length is gone through.
@@ -307,10 +321,6 @@ impl Linear {
         let (mut derivatives, mut end, mut start) = (Vec::new(), Vec::new(), Vec::new());
         for (g, group) in self.groups.iter().enumerate() {
             let m = group.size();
-            let place = |row: usize| match row.checked_sub(group.degrees.len()) {
-                None => group.degrees[row],
-                Some(row) => d + group.degrees[row],
-            };
             start.clear();
             start.extend(group.degrees.iter().map(|k| x[*k]));
             start.extend(group.degrees.iter().map(|k| v[*k]));
@@ -318,7 +328,7 @@ impl Linear {
                 loads.iter().for_each(|load| start.extend(group.axes.iter().map(|k| load[*k])));
                 let rows = maps.free[g].chunks_exact(start.len());
                 for (i, row) in rows.enumerate() {
-                    states[i / m * 2 * d + place(i % m)] = product(row, &start);
+                    states[i / m * 2 * d + group.place(i % m, d)] = product(row, &start);
                 }
                 continue;
             }
@@ -327,7 +337,7 @@ impl Linear {
             for target in 0..TARGETS {
                 group.sum(&derivatives, Rule::get().points[1 + target] * step_s, &mut end);
                 for (row, value) in end.iter().enumerate() {
-                    states[target * 2 * d + place(row)] = *value;
+                    states[target * 2 * d + group.place(row, d)] = *value;
                 }
             }
         }
@@ -344,29 +354,18 @@ impl Linear {
         let maps = self.maps(step_s, instant_s);
         let terms = terms(self.rate * step_s);
         for (g, group) in self.groups.iter().enumerate() {
-            let (m, n) = (group.size(), group.degrees.len());
-            let place = |row: usize| match row.checked_sub(n) {
-                None => group.degrees[row],
-                Some(row) => d + group.degrees[row],
-            };
+            let m = group.size();
             if let Some(maps) = maps {
                 let all: Vec<f64> = group.axes.iter().flat_map(|axis| forces[*axis]).collect();
                 for (i, row) in maps.forced[g].chunks_exact(all.len()).enumerate() {
-                    states[i / m * 2 * d + place(i % m)] += product(row, &all);
+                    states[i / m * 2 * d + group.place(i % m, d)] += product(row, &all);
                 }
                 continue;
             }
-            for (axis, powers) in group.axes.iter().zip(&group.of_force) {
-                for target in 0..TARGETS {
-                    let mut power = step_s;
-                    for (of_order, of_force) in integrals()[..terms].iter().zip(powers) {
-                        let moment = product(&of_order[target], &forces[*axis]);
-                        for (row, of_force) in of_force.iter().enumerate() {
-                            states[target * 2 * d + place(row)] += power * moment * of_force;
-                        }
-                        power *= step_s;
-                    }
-                }
+            for target in 0..TARGETS {
+                group.forced(forces, (step_s, terms), target, |row, value| {
+                    states[target * 2 * d + group.place(row, d)] += value;
+                });
             }
         }
     }

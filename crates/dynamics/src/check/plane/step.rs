@@ -481,15 +481,8 @@ fn moved(by: &Blocks, free: &[[f64; NODES]; 2], forces: &[[f64; NODES]; 2]) -> [
 
 /// The polynomial through values at the nodes, at the start or the end of a step.
 fn extrapolated(values: &[f64; NODES], end: usize) -> f64 {
-    static SHARES: LazyLock<[[f64; NODES]; 2]> = LazyLock::new(|| {
-        let c = &Rule::get().c;
-        [0.0, 1.0].map(|t| {
-            core::array::from_fn(|k| {
-                let others = (0..NODES).filter(|&j| j != k);
-                others.map(|j| (t - c[j]) / (c[k] - c[j])).product()
-            })
-        })
-    });
+    static SHARES: LazyLock<[[f64; NODES]; 2]> =
+        LazyLock::new(|| [0.0, 1.0].map(|t| core::array::from_fn(|k| Rule::get().lagrange(k, t))));
     SHARES[end].iter().zip(values).map(|(share, value)| share * value).sum()
 }
 
