@@ -2,7 +2,6 @@
 
 use super::hold::Disc;
 use super::{Bearing, Direction, RateCurve, Restoring, Slider};
-use crate::linear::polynomial::Polynomial;
 
 /// What a slider does along any direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,26 +40,9 @@ impl Kinetic {
         self.at_rest - self.gain * libm::expm1(-self.rate_s_per_m * speed)
     }
 
-    /// Coefficient `k` of `μ_k` along a motion, after those before it, from those of its speed up to `k`:
-    ///
-    /// ```text
-    /// μ' = α (at_rest + gain − μ) r',   so   k μ_k = α (fast k r_k − Σ_{1≤j≤k} j r_j μ_{k−j})
-    /// ```
-    pub(crate) fn expand(&self, speed: &Polynomial, before: &Polynomial, k: usize) -> f64 {
-        if k == 0 {
-            return self.at(speed[0]);
-        }
-        if self.is_constant() {
-            return 0.0;
-        }
-        let lacks = |i: usize| if i == 0 { self.lacks(before[0]) } else { -before[i] };
-        let sum: f64 = (1..=k).map(|j| j as f64 * speed[j] * lacks(k - j)).sum();
-        self.rate_s_per_m / k as f64 * sum
-    }
-
-    /// What a coefficient lacks of that at high speed.
-    fn lacks(&self, mu: f64) -> f64 {
-        (self.at_rest - mu) + self.gain
+    /// How fast that grows with the speed, in s/m.
+    pub(crate) fn slope_at(&self, speed: f64) -> f64 {
+        self.gain * self.rate_s_per_m * libm::exp(-self.rate_s_per_m * speed)
     }
 
     /// The same times a factor.

@@ -1,25 +1,27 @@
 //! The motion in two horizontal directions: one slider whose friction is the same in all of them.
 //!
-//! In stick and in slip far from rest it is a Taylor series in the time (`series`), near rest one in a time that
-//! slows down with the speed (`near_rest`), in which nothing is singular. What is in between is in `stop`: where
-//! a slip has come to rest. Peaks are those of the continuous motion (`peaks`).
+//! The structure, springs and dampers are linear, and so is the motion under a known force of friction: a Taylor series
+//! in the time (`series`). In a slip that force is the polynomial through its values at Gauss' nodes (`nodes`), whose
+//! directions are those of the velocity there (`force`); a step is as long as the direction allows (`slip`). What happens
+//! where a slip has come to rest is in `stop`. Peaks are those of the continuous motion (`peaks`).
 
+mod force;
 mod mass;
-mod near_rest;
+mod nodes;
 mod peaks;
 mod record;
 mod series;
+mod slip;
 mod speed;
-mod start;
 mod steps;
 mod stop;
 mod straight;
 mod summary;
 mod system;
 mod terms;
-mod turning;
 mod vector;
 
+use self::force::{Force, Influence};
 use self::peaks::Peaks;
 use self::record::{Knot, Recorder};
 use self::series::{Kind, Series};
@@ -34,12 +36,16 @@ use super::phase::{Phase, Reached};
 use super::slider::leading;
 use super::walk::Walk;
 use crate::error::SolveError;
+use crate::linear::polynomial::ZERO;
 use crate::numerics::InstructionSet;
 use crate::response::{EventInPlane, EventKind, Mode};
 use crate::slider::Direction;
 
 pub(super) use self::straight::{OnLine, on_line, solve};
 pub(super) use self::system::System;
+
+/// Part of the largest velocity of the table.
+const OF_TABLE: f64 = 0.1;
 
 /// In two directions a slip is positive along its own velocity.
 const SLIP: Mode = Mode::Slip(Direction::Positive);
@@ -59,7 +65,17 @@ pub(super) struct Plane<'a> {
     is_released: bool,
     /// Largest speed of this slip.
     peak_speed: f64,
+    /// A part of the largest velocity of the table, which a speed is compared with.
+    speed_scale: f64,
+    /// The length of a step of a slip that is tried next, in s.
+    next_s: f64,
+    /// How far from rest the last one began, as a time in s.
+    near_s: f64,
+    /// The last step was short because of rest.
+    is_near_rest: bool,
     series: Series,
+    influence: Influence,
+    force: Force,
     scales: Scales,
     peaks: Peaks,
     least: Least,
@@ -88,7 +104,13 @@ impl<'a> Plane<'a> {
             starts: false,
             is_released: false,
             peak_speed: speed,
+            speed_scale: OF_TABLE * largest_velocity(ground.times_s, [ground.table, table_y]),
+            next_s: f64::INFINITY,
+            near_s: f64::INFINITY,
+            is_near_rest: false,
             series: Series::new(&system, instructions),
+            influence: Influence::new(instructions),
+            force: Force::new(),
             scales,
             peaks: Peaks::new(&system, state.s),
             least: Least::default(),
@@ -192,6 +214,17 @@ impl<'a> Plane<'a> {
     }
 }
 
+/// `∫Ü dt` at its largest.
+fn largest_velocity(times_s: &[f64], table: [&[f64]; 2]) -> f64 {
+    let (mut v, mut most) = ([0.0; 2], 0.0_f64);
+    for i in 1..times_s.len() {
+        let half_s = 0.5 * (times_s[i] - times_s[i - 1]);
+        v = [0, 1].map(|k| v[k] + half_s * (table[k][i - 1] + table[k][i]));
+        most = most.max(norm(v));
+    }
+    most
+}
+
 /// What is due.
 enum Due {
     Stick(Option<f64>),
@@ -217,7 +250,7 @@ impl<'a> Phase<'a> for Plane<'a> {
         };
         // A step is counted as an event, one without length as a thousand: none of these moves on.
         walk.course.events_in_interval += if to_s > at_s { 1 } else { 1000 };
-        let is_near_rest = matches!(walk.phase.series.kind, Kind::NearRest | Kind::Turning);
+        let is_near_rest = walk.phase.series.kind == Kind::Slip && walk.phase.is_near_rest;
         if is_near_rest && to_s < stretch.to_s {
             walk.record(stretch, to_s, false);
         }
@@ -279,14 +312,17 @@ impl<'a> Phase<'a> for Plane<'a> {
         let phase = &mut walk.phase;
         let kind = match walk.course.block.mode {
             Mode::Stick => Kind::Stick,
-            Mode::Slip(_) if loads.normal[0] == 0.0 || phase.system.kinetic_per_kg.is_none() => {
-                Kind::Frictionless
+            Mode::Slip(_) => {
+                let at = phase.instant(&loads);
+                phase.series.from = phase.direction;
+                let taken = phase.direction.map(|u| at.friction * u);
+                for (friction, taken) in phase.series.friction.iter_mut().zip(taken) {
+                    (*friction, friction[0]) = (ZERO, taken);
+                }
+                Kind::Slip
             }
-            Mode::Slip(_) if phase.state.w == [0.0; 2] => Kind::Start,
-            Mode::Slip(_) => Kind::Slip,
         };
-        let (system, scales) = (&phase.system, &phase.scales);
-        phase.series.expand(system, (kind, &phase.state), (loads, 1e-3), scales);
+        phase.expand(kind, (loads, 1e-3));
         phase.look_for_peaks(stretch, 0.0, 0.0);
         phase.starts = false;
     }

@@ -4,7 +4,8 @@
 //! derivative times the square of the part: where the ends and that bound cannot exceed what has been attained,
 //! nothing is looked for; else the part is halved.
 
-use super::mass::times;
+use super::mass::{Matrix, times};
+use super::nodes::{NODES, nodes};
 use super::series::{Kind, Series, square};
 use super::stop::Arc;
 use super::system::{State, System};
@@ -17,6 +18,9 @@ use crate::response::output::Output;
 
 /// A relative difference of peaks that is rounding.
 const ROUNDING: f64 = 1e-15;
+
+/// The largest second derivative of Legendre's polynomial that follows those of a step, twice for those after it.
+const LEFT_OUT: f64 = ((NODES - 1) * NODES * (NODES + 1) * (NODES + 2)) as f64;
 
 /// Most parts of a step that are looked at.
 const MOST_PARTS: usize = 4096;
@@ -180,12 +184,6 @@ impl Composed {
         core::array::from_fn(|k| self.of_pull * pull[k] + self.of_shear * shear[k])
     }
 
-    /// Along an axis, away from rest.
-    fn along(&self, axis: usize, series: &Series) -> Polynomial {
-        let (steady, friction) = (self.steady(axis, series), &series.friction[axis]);
-        core::array::from_fn(|k| steady[k] - self.of_friction * friction[k])
-    }
-
     /// Its values at both ends, and how far its components depart from their chords at most.
     fn between(&self, chords: &[[Chord; 2]; 3]) -> ([[f64; 2]; 2], [f64; 2]) {
         let factors = [self.of_pull, self.of_shear, -self.of_friction];
@@ -215,41 +213,23 @@ impl Chord {
 
 /// What of a series is looked at.
 struct SeriesPart<'a> {
+    system: &'a System,
     series: &'a Series,
     to: f64,
-    near: Option<&'a NearRest>,
     /// Of `P`, `L g` and `φ`.
     chords: &'a [[Chord; 2]; 3],
 }
 
-/// The moment of an axis by its own polynomial, `A − c φ`.
-struct Moment {
-    axis: usize,
-    steady: Polynomial,
-    of_friction: f64,
-}
-
-/// `φ = f u` near rest, where it is no series: bounds of its size and of its first two derivatives.
-struct NearRest {
-    sizes: [f64; 3],
+/// A vector that friction is part of, `A − M φ`.
+struct Vector {
+    steady: [Polynomial; 2],
+    of_friction: Matrix,
 }
 
 /// An eighth of the bound on the second derivative over a part.
 #[inline(always)]
 pub(super) fn bend(c: &Polynomial, to: f64) -> f64 {
     0.125 * if to == 1.0 { curvature_bound(c) } else { curvature_term(c, to) }
-}
-
-/// `Σ k |c_k| x^(k−1)` and `Σ |c_k| x^k`.
-fn bounds(c: &Polynomial, x: f64) -> [f64; 2] {
-    let (mut size, mut slope) = (0.0, 0.0);
-    for k in (0..=DEGREE).rev() {
-        size = size * x + c[k].abs();
-        if k > 0 {
-            slope = slope * x + k as f64 * c[k].abs();
-        }
-    }
-    [slope, size]
 }
 
 fn scaled(c: &Polynomial, factor: f64) -> Polynomial {
@@ -288,10 +268,13 @@ impl Peaks {
             self.look_at_sliding(series, to, from_s);
             self.look_at(Output::Velocity, &series.w, to);
         }
-        let block = self.look_at_block(system, series, to);
+        let of = |of: &[Polynomial; 2]| of.each_ref().map(|c| Chord::of(c, to));
+        let chords = [of(&series.pull), of(&series.shear), friction_chord(system, series, to)];
+        let part = SeriesPart { system, series, to, chords: &chords };
+        let block = self.look_at_block(&part);
         if system.modes() > 0 {
             self.look_at(Output::BaseShear, &series.shear, to);
-            self.look_at_points(system, (series, to), end, block.as_ref());
+            self.look_at_points(&part, end, block.as_ref());
         }
     }
 
@@ -299,11 +282,11 @@ impl Peaks {
     /// of the modes are not enough.
     fn look_at_points(
         &mut self,
-        system: &System,
-        (series, to): (&Series, f64),
+        part: &SeriesPart<'_>,
         (end, g): (&State, &[f64]),
-        block: Option<&[Polynomial; 2]>,
+        block: Option<&Vector>,
     ) {
+        let &SeriesPart { system, series, to, .. } = part;
         let mut bends = core::mem::take(&mut self.bends);
         let displacements = (&*series.eta, &*end.eta);
         series.bends(&series.eta, to, &mut bends);
@@ -318,16 +301,16 @@ impl Peaks {
         series.bends(&series.g, to, &mut bends);
         for i in 0..system.points {
             let rows = [system.floor(0, i), system.floor(1, i)];
-            if let (Some(part), Some(block)) = (system.with_block.get(i), block) {
+            if let (Some(with_block), Some(block)) = (system.with_block.get(i), block) {
                 // −Φ g + W b
-                let of_block = |axis: usize, k: usize| {
-                    part[axis][0] * block[0][k] + part[axis][1] * block[1][k]
-                };
-                let all = [0, 1].map(|axis| -> Polynomial {
+                let steady = [0, 1].map(|axis| -> Polynomial {
                     let of_modes = combined(rows[axis], &series.g, series.degree);
-                    core::array::from_fn(|k| of_block(axis, k) - of_modes[k])
+                    let [x, y] = &block.steady;
+                    let row = with_block[axis];
+                    core::array::from_fn(|k| inner(row, [x[k], y[k]]) - of_modes[k])
                 });
-                self.look_at(Output::Acceleration(i), &all, to);
+                let of_friction = with_block.map(|row| transposed(&block.of_friction, row));
+                self.look_at_vector(Output::Acceleration(i), &Vector { steady, of_friction }, part);
                 continue;
             }
             self.look_at_rows(Output::Acceleration(i), rows, (&series.g, g), (series, to), &bends);
@@ -360,7 +343,7 @@ impl Peaks {
     fn look_at_sliding(&mut self, series: &Series, to: f64, from_s: f64) {
         let s = &series.s;
         if let Some(x) = self.sliding.look(s, to) {
-            self.peak_time_s = from_s + value(&series.time, x);
+            self.peak_time_s = from_s + series.unit * x;
             self.peak_place = [value(&s[0], x), value(&s[1], x)];
         }
         let bends = [bend(&s[0], to), bend(&s[1], to)];
@@ -383,52 +366,49 @@ impl Peaks {
     }
 
     /// The outputs that friction is part of; the acceleration of a block that has more than one mass.
-    fn look_at_block(
-        &mut self,
-        system: &System,
-        series: &Series,
-        to: f64,
-    ) -> Option<[Polynomial; 2]> {
-        let near = (series.kind == Kind::NearRest).then(|| near_rest(series, to));
-        let chords = [&series.pull, &series.shear, &series.friction]
-            .map(|of| [Chord::of(&of[0], to), Chord::of(&of[1], to)]);
+    fn look_at_block(&mut self, part: &SeriesPart<'_>) -> Option<Vector> {
+        let &SeriesPart { system, series, .. } = part;
         let kg = system.block_kg;
         let block = Composed { of_pull: 1.0, of_shear: 0.0, of_friction: 1.0 };
         let friction = Composed { of_pull: 0.0, of_shear: 0.0, of_friction: kg };
         let slider = Composed { of_pull: kg, of_shear: -1.0, of_friction: kg };
         // The size of constant friction is linear in the time: its ends are its peaks.
-        let by_axis = system.kinetic_per_kg.is_constant()
-            && matches!(series.kind, Kind::Slip | Kind::Start | Kind::Turning);
-        let part = SeriesPart { series, to, near: near.as_ref(), chords: &chords };
-        self.look_at_composed(Output::FrictionForce, &friction, &part, by_axis);
-        self.look_at_composed(Output::SliderForce, &slider, &part, false);
+        let by_axis = system.kinetic_per_kg.is_constant() && series.kind == Kind::Slip;
+        self.look_at_composed(Output::FrictionForce, &friction, part, by_axis);
+        self.look_at_composed(Output::SliderForce, &slider, part, false);
+        let mut own = None;
         if let Some(mass) = &system.mass {
             // b = C (P − φ)
-            let force = |axis: usize, k: usize| series.pull[axis][k] - series.friction[axis][k];
-            let mut block = [ZERO; 2];
-            for k in 0..=series.degree {
-                let b = times(&mass.inverse, [force(0, k), force(1, k)]);
-                (block[0][k], block[1][k]) = (b[0], b[1]);
-            }
-            self.look_at(Output::Block, &block, to);
-            for axis in 0..2 {
-                let Some((arm, along)) = &system.overturning[axis] else { continue };
-                let modes = combined(arm, &series.g, series.degree);
-                let steady =
-                    core::array::from_fn(|k| inner(*along, [block[0][k], block[1][k]]) - modes[k]);
-                self.look_at_moment(&Moment { axis, steady, of_friction: 0.0 }, &part);
-            }
-            return Some(block);
+            let of_pull = |axis: usize| -> Polynomial {
+                let row = mass.inverse[axis];
+                core::array::from_fn(|k| inner(row, [series.pull[0][k], series.pull[1][k]]))
+            };
+            let block = Vector { steady: [of_pull(0), of_pull(1)], of_friction: mass.inverse };
+            self.look_at_vector(Output::Block, &block, part);
+            own = Some(block);
+        } else {
+            self.look_at_composed(Output::Block, &block, part, false);
         }
-        self.look_at_composed(Output::Block, &block, &part, false);
         for axis in 0..2 {
             let Some((arm, along)) = &system.overturning[axis] else { continue };
-            // The moment of floors and block: −arm·g + block·b.
-            let (modes, block) = (combined(arm, &series.g, series.degree), along[axis]);
-            let steady = core::array::from_fn(|k| block * series.pull[axis][k] - modes[k]);
-            self.look_at_moment(&Moment { axis, steady, of_friction: block }, &part);
+            // The moment of floors and block: −arm·g + along·b.
+            let modes = combined(arm, &series.g, series.degree);
+            let of_block = |pull: &[Polynomial; 2]| -> Polynomial {
+                core::array::from_fn(|k| inner(*along, [pull[0][k], pull[1][k]]) - modes[k])
+            };
+            let (steady, of_friction) = match &own {
+                Some(block) => (of_block(&block.steady), transposed(&block.of_friction, *along)),
+                None => (of_block(&series.pull), *along),
+            };
+            let mut moment = Vector { steady: [ZERO; 2], of_friction: [[0.0; 2]; 2] };
+            (moment.steady[axis], moment.of_friction[axis]) = (steady, of_friction);
+            let mut peak = self.all[Output::Overturning.place(self.points)];
+            moment.look(&mut peak, part, true);
+            let all = &mut self.all[Output::Overturning.place(self.points)];
+            all.axes[axis] = peak.axes[axis];
+            all.norm = all.norm.max(peak.axes[axis]);
         }
-        None
+        own
     }
 
     /// `by_axis` where the length has its peaks at the ends.
@@ -439,42 +419,21 @@ impl Peaks {
         part: &SeriesPart<'_>,
         by_axis: bool,
     ) {
-        let &SeriesPart { series, to, near, chords } = part;
         let peak = &mut self.all[output.place(self.points)];
-        if let Some(near) = near {
-            let steady = [of.steady(0, series), of.steady(1, series)];
-            return near.look(peak, (&steady, of.of_friction), series, to);
-        }
-        let (ends, bends) = of.between(chords);
-        peak.note_ends(ends, to);
-        if by_axis {
-            if !peak.is_above_by_axis(ends, bends) {
-                peak.look_at_axes(&[of.along(0, series), of.along(1, series)], to);
-            }
-        } else if !peak.is_above(ends, bends) {
-            peak.look(&[of.along(0, series), of.along(1, series)], to);
+        let (ends, bends) = of.between(part.chords);
+        peak.note_ends(ends, part.to);
+        let is_above =
+            if by_axis { peak.is_above_by_axis(ends, bends) } else { peak.is_above(ends, bends) };
+        if !is_above {
+            let c = of.of_friction;
+            let steady = [of.steady(0, part.series), of.steady(1, part.series)];
+            let vector = Vector { steady, of_friction: [[c, 0.0], [0.0, c]] };
+            vector.look(peak, part, by_axis);
         }
     }
 
-    /// The moment of an axis, which the friction across it is no part of.
-    fn look_at_moment(&mut self, of: &Moment, part: &SeriesPart<'_>) {
-        let &SeriesPart { series, to, near, .. } = part;
-        let (axis, mut along) = (of.axis, [ZERO; 2]);
-        let all = &mut self.all[Output::Overturning.place(self.points)];
-        match near {
-            None => {
-                let friction = &series.friction[axis];
-                along[axis] = core::array::from_fn(|k| of.steady[k] - of.of_friction * friction[k]);
-                all.look_at_axes(&along, to);
-            }
-            Some(near) => {
-                let mut peak = *all;
-                along[axis] = of.steady;
-                near.look_at_axes(&mut peak, (&along, of.of_friction), series, to);
-                all.axes[axis] = peak.axes[axis];
-                all.norm = all.norm.max(peak.axes[axis]);
-            }
-        }
+    fn look_at_vector(&mut self, output: Output, of: &Vector, part: &SeriesPart<'_>) {
+        of.look(&mut self.all[output.place(self.points)], part, false);
     }
 
     /// Notes the outputs that friction is part of on the arc at a stop, from `P` and `L g` at both of its ends.
@@ -566,86 +525,83 @@ fn combined(row: &[f64], list: &[f64], order: usize) -> Polynomial {
     sums
 }
 
-/// `φ = f u` near rest. In `τ` the direction turns by `θ' = u × p`, and over a step of length `x`
-///
-/// ```text
-/// |θ''| ≤ |p| |θ'| + |u × p'|,   |u × p'| ≤ |u_0 × p'| + x |p'| |θ'|
-/// |θ'| ≤ (|u_0 × p_0| + x |u_0 × p'|) e^{(|p| + x |p'|) x}
-/// ```
-fn near_rest(series: &Series, to: f64) -> NearRest {
-    let h = series.unit;
-    let [u_x, u_y] = [series.w[0][0], series.w[1][0]].map(|w| w / series.speed[0]);
-    let push = [0, 1].map(|axis| -> Polynomial {
-        let [table, rate] = series.loads.table[axis];
-        core::array::from_fn(|k| {
-            h * (series.pull[axis][k] - rate * series.time[k] - if k == 0 { table } else { 0.0 })
-        })
-    });
-    let across: Polynomial = core::array::from_fn(|k| u_x * push[1][k] - u_y * push[0][k]);
-    let of_push = [bounds(&push[0], to), bounds(&push[1], to)];
-    let [slope, size] = [0, 1].map(|i| norm([of_push[0][i], of_push[1][i]]));
-    let [across_slope, _] = bounds(&across, to);
-    let growth = libm::exp((size + to * slope) * to);
-    let turn = size.min((across[0].abs() + to * across_slope) * growth);
-    let second_turn = size * turn + slope.min(across_slope + to * slope * turn);
-    let f = &series.slowing;
-    let [changes, _] = bounds(f, to);
-    let bend = bend(f, to);
-    let largest = f[0].max(value(f, to)) + bend;
-    let bent = 8.0 * bend / (to * to).max(f64::MIN_POSITIVE);
-    let second = largest * (turn * turn + second_turn) + 2.0 * changes * turn + bent;
-    let first = largest * turn + changes;
-    NearRest { sizes: [largest, first, second] }
+/// What friction takes at a part of a series: in slip along the velocity there; from rest, where that begins with
+/// what the nodes leave out, along the polynomial through its values there and at the start.
+fn friction_at(system: &System, series: &Series, x: f64) -> [f64; 2] {
+    if series.kind != Kind::Slip {
+        return series.friction.each_ref().map(|p| value(p, x));
+    }
+    let (w, [normal_n, rate]) = (series.velocity_at(x), series.loads.normal);
+    let speed = norm(w);
+    let size = system.kinetic_per_kg.at(speed) * (normal_n + rate * (series.unit * x)).max(0.0);
+    if [series.w[0][0], series.w[1][0]] == [0.0; 2] {
+        let part = nodes().beside_start(x);
+        let [of_x, of_y] = series.friction.each_ref();
+        let first = [of_x[0], of_y[0]];
+        let at_rest = system.kinetic_per_kg.at(0.0) * normal_n;
+        let along = [(of_x, 0), (of_y, 1)].map(|(of, axis)| {
+            value(of, x) + (at_rest * series.from[axis] - first[axis]) * part
+        });
+        let length = norm(along);
+        return if length > 0.0 { along.map(|u| size / length * u) } else { [0.0; 2] };
+    }
+    w.map(|w| size / speed * w)
 }
 
-impl NearRest {
-    /// `A − c φ` at a part.
-    fn vector((steady, c): (&[Polynomial; 2], f64), series: &Series, x: f64) -> [f64; 2] {
-        let w = series.velocity_at(x);
-        let per_speed = c * value(&series.slowing, x) / norm(w);
-        [0, 1].map(|k| value(&steady[k], x) - per_speed * w[k])
-    }
+/// How far it departs from its chord by axis: of a slip that of the polynomial through its values at the nodes, and the
+/// second derivative of what that leaves out, which is less than its last coefficients.
+fn friction_chord(system: &System, series: &Series, to: f64) -> [Chord; 2] {
+    let [from, end] = [0.0, to].map(|x| friction_at(system, series, x));
+    let left_out = if series.kind == Kind::Slip { 0.125 * LEFT_OUT * series.tail } else { 0.0 };
+    [0, 1].map(|axis| {
+        let bend = bend(&series.friction[axis], to) + left_out * (to * to);
+        Chord { ends: [from[axis], end[axis]], bend }
+    })
+}
 
-    /// Looks for peaks of the components of `A − c φ`, and notes the ends: these.
-    fn look_at_axes(
-        &self,
-        peak: &mut Peak,
-        (a, c): (&[Polynomial; 2], f64),
-        series: &Series,
-        to: f64,
-    ) -> [[f64; 2]; 2] {
-        let of = |x: f64| Self::vector((a, c), series, x);
+/// A row times a matrix.
+fn transposed(matrix: &Matrix, row: [f64; 2]) -> [f64; 2] {
+    let [[a, b], [c, d]] = *matrix;
+    [row[0] * a + row[1] * c, row[0] * b + row[1] * d]
+}
+
+impl Vector {
+    /// Looks for its peaks, in slip by the friction along its velocity; `by_axis` those of its components alone.
+    fn look(&self, peak: &mut Peak, part: &SeriesPart<'_>, by_axis: bool) {
+        let &SeriesPart { system, series, to, .. } = part;
+        let all = [0, 1].map(|axis| -> Polynomial {
+            let ([x, y], row) = (&series.friction, self.of_friction[axis]);
+            core::array::from_fn(|k| self.steady[axis][k] - inner(row, [x[k], y[k]]))
+        });
+        if series.kind != Kind::Slip {
+            if by_axis {
+                peak.look_at_axes(&all, to);
+            } else {
+                peak.look(&all, to);
+            }
+            return;
+        }
+        let of = |x: f64| {
+            let taken = times(&self.of_friction, friction_at(system, series, x));
+            [0, 1].map(|axis| value(&self.steady[axis], x) - taken[axis])
+        };
         let ends = [of(0.0), of(to)];
         peak.note_ends(ends, to);
-        let [_, _, second] = self.sizes;
+        let rounding = ROUNDING * peak.norm;
+        let left_out = 0.125 * LEFT_OUT * series.tail * (to * to);
+        let mut bends = [0.0; 2];
         for axis in 0..2 {
-            let bend = bend(&a[axis], to) + 0.125 * c * second * (to * to);
-            let rounding = ROUNDING * peak.norm;
-            let arch = Arch { bend, rounding, ends: ends.map(|v| v[axis].abs()), to };
+            bends[axis] = bend(&all[axis], to) + norm(self.of_friction[axis]) * left_out;
+            let arch = Arch { bend: bends[axis], rounding, ends: ends.map(|v| v[axis].abs()), to };
             arch.search(|x| of(x)[axis].abs(), &mut peak.axes[axis]);
         }
-        ends
-    }
-
-    /// Looks for peaks of `V = A − c φ`; with `|φ| = f` that of `|V|² = |A|² − 2 c A·φ + c² f²` is flat where
-    /// `A` is small.
-    fn look(&self, peak: &mut Peak, (a, c): (&[Polynomial; 2], f64), series: &Series, to: f64) {
-        let of = |x: f64| Self::vector((a, c), series, x);
-        let ends = self.look_at_axes(peak, (a, c), series, to);
-        let [size, first, second] = self.sizes;
-        let [mut slopes, mut sizes, mut bends] = [[0.0; 2]; 3];
-        for axis in 0..2 {
-            [slopes[axis], sizes[axis]] = bounds(&a[axis], to);
-            bends[axis] = bend(&a[axis], to);
+        let largest = norm(ends[0]).max(norm(ends[1])) + norm(bends);
+        if by_axis || largest <= peak.norm * (1.0 + ROUNDING) {
+            return;
         }
-        let [slope, steady] = [norm(slopes), norm(sizes)];
-        let product =
-            norm(bends) * size + 0.125 * (to * to) * (2.0 * slope * first + steady * second);
-        let [change, _] = bounds(&series.slowing, to);
-        let of_friction =
-            0.25 * (to * to) * (change * change) + 2.0 * size * bend(&series.slowing, to);
-        let bend = bend(&squared(a), to) + 2.0 * c * product + c * c * of_friction;
-        let square = |v: [f64; 2]| v[0] * v[0] + v[1] * v[1];
+        let square = |v: [f64; 2]| inner(v, v);
+        let of_friction = norm(self.of_friction.map(norm)) * left_out;
+        let bend = bend(&squared(&all), to) + 2.0 * largest * of_friction;
         let rounding = ROUNDING * (peak.norm * peak.norm);
         let arch = Arch { bend, rounding, ends: ends.map(square), to };
         peak.search_length(&arch, |x| square(of(x)), None);

@@ -1,9 +1,13 @@
 //! The sliding speed over a step: its least minimum, and the path.
 
+use super::nodes::{AtNodes, NODES, nodes};
 use super::peaks::bend;
 use super::series::{Kind, Series};
 use super::vector::{inner, norm};
 use crate::linear::polynomial::{DEGREE, ZERO, derivative, value};
+
+/// Last Legendre coefficients of a speed over its mean with which Gauss' rule is exact.
+const SMOOTH: f64 = 1e-8;
 
 /// The least local minimum of `|w|` within a slip.
 #[derive(Clone, Copy, Debug, Default)]
@@ -23,20 +27,45 @@ impl Least {
     }
 
     /// Looks at the speed over the first part of a series.
-    pub(super) fn look(&mut self, series: &Series, to: f64) {
+    pub(super) fn look(&mut self, series: &Series, (to, speeds): (f64, &AtNodes)) {
         match series.kind {
             Kind::Stick => self.interrupt(),
-            Kind::Frictionless if series.w.each_ref().map(derivative) == [ZERO; 2] => {}
+            _ if series.w.each_ref().map(derivative) == [ZERO; 2] => {}
             Kind::Frictionless => {
-                self.look_at(slope_of(series), |x| norm(series.velocity_at(x)), (0.0, to));
+                let speed = |x: f64| norm(series.velocity_at(x));
+                self.look_at(slope_of(series), speed, (lowest(series, to), to));
             }
-            _ => {
-                let speed = &series.speed;
-                let lowest = speed[0].min(value(speed, to)) - bend(speed, to);
-                let slope = derivative(speed);
-                if slope != ZERO {
-                    self.look_at(|x| value(&slope, x), |x| value(speed, x), (lowest, to));
-                }
+            Kind::Slip => self.look_at_nodes(series, (to, speeds)),
+        }
+    }
+
+    /// The same of a slip, whose speed falls and rises between its nodes as the speeds there tell.
+    fn look_at_nodes(&mut self, series: &Series, (to, speeds): (f64, &AtNodes)) {
+        let slope = slope_of(series);
+        let of = |x: f64| norm(series.velocity_at(x));
+        let [start, end] = [0.0, to].map(&slope);
+        if to == 0.0 {
+            return;
+        }
+        if self.is_falling && start >= 0.0 {
+            self.note(of(0.0));
+        }
+        self.is_falling = end < 0.0;
+        let at = |i: usize| match i {
+            0 => 0.0,
+            i if i > NODES => to,
+            i => nodes().at[i - 1],
+        };
+        let last = NODES + 1;
+        let mut all = [of(0.0); NODES + 2];
+        all[1..last].copy_from_slice(speeds);
+        all[last] = of(to);
+        for i in 0..=last {
+            let is_below = |j: usize| all[i] < all[j] || (all[i] == all[j] && j > i);
+            let is_least = (i == 0 || is_below(i - 1)) && (i == last || is_below(i + 1));
+            let sides = [at(i.saturating_sub(1)), at((i + 1).min(last))];
+            if is_least && slope(sides[0]) < 0.0 && slope(sides[1]) >= 0.0 {
+                self.note(of(bisected(&slope, -1.0, sides)));
             }
         }
     }
@@ -57,7 +86,7 @@ impl Least {
             self.note(of(0.0));
         }
         self.is_falling = end < 0.0;
-        if self.speed.is_none_or(|least| lowest < least) || end < 0.0 && start >= 0.0 {
+        if self.speed.is_none_or(|least| lowest < least) {
             for (x, is_least) in turns(slope, to) {
                 // At the end it is a minimum if the slip goes on.
                 if is_least && x < to {
@@ -70,8 +99,7 @@ impl Least {
     }
 }
 
-/// `w·ẇ` of a motion without friction, whose `|w|` is no series where w passes 0. The series of `|w|²` would not do:
-/// beside a large `|w|` its rounding hides how small the least is.
+/// `w·ẇ`. The series of `|w|²` would not do: beside a large `|w|` its rounding hides how small the least is.
 pub(super) fn slope_of(series: &Series) -> impl Fn(f64) -> f64 {
     let change = series.w.each_ref().map(derivative);
     move |x| inner(series.velocity_at(x), change.each_ref().map(|c| value(c, x)))
@@ -121,27 +149,31 @@ fn bisected(slope: &impl Fn(f64) -> f64, sign: f64, [mut low, mut high]: [f64; 2
     }
 }
 
-/// `∫|w| dt` over the first part of a series.
-pub(super) fn path_m(series: &Series, to: f64) -> f64 {
-    match series.kind {
-        Kind::Stick => 0.0,
-        Kind::Slip | Kind::Start => {
-            let mut sum = 0.0;
-            for k in (0..=series.degree).rev() {
-                sum = sum * to + series.speed[k] / (k + 1) as f64;
-            }
-            series.unit * to * sum
-        }
-        // ∫ r² dτ
-        Kind::NearRest | Kind::Turning => gauss(0.0, to, &|x| {
-            let r = value(&series.speed, x);
-            series.unit * r * r
-        }),
-        Kind::Frictionless => {
-            let speed = |x: f64| series.unit * norm(series.velocity_at(x));
-            integral_of_length(&speed, slope_of(series), to)
+/// A bound on the least speed over the first part of a series: that of its chord, less how far it departs from it.
+pub(super) fn lowest(series: &Series, to: f64) -> f64 {
+    let [from, end] = [0.0, to].map(|x| series.velocity_at(x));
+    let chord = [end[0] - from[0], end[1] - from[1]];
+    let square = inner(chord, chord);
+    let nearest = if square > 0.0 { (-inner(from, chord) / square).clamp(0.0, 1.0) } else { 0.0 };
+    let least = norm([0, 1].map(|k| from[k] + nearest * chord[k]));
+    least - norm(series.w.each_ref().map(|w| bend(w, to)))
+}
+
+/// `∫|w| dt` over the first part of a series; of a slip by the speeds at its nodes.
+pub(super) fn path_m(series: &Series, (to, speeds): (f64, &AtNodes)) -> f64 {
+    if series.kind == Kind::Stick {
+        return 0.0;
+    }
+    if series.kind == Kind::Slip {
+        let coefficients = nodes().coefficients(speeds);
+        let mean = coefficients[0];
+        let tail = coefficients[NODES - 2].abs().max(coefficients[NODES - 1].abs());
+        if tail <= SMOOTH * mean {
+            return series.unit * mean;
         }
     }
+    let speed = |x: f64| series.unit * norm(series.velocity_at(x));
+    integral_of_length(&speed, slope_of(series), to)
 }
 
 /// `∫|w|` over `[0, to]`, from one turn of `|w|` to the next: where it passes 0 it has a bend.

@@ -1,7 +1,6 @@
 //! Steps of a motion in two horizontal directions.
 
 use super::Plane;
-use super::near_rest;
 use super::series::{Kind, square};
 use super::speed::{path_m, slope_of, turns};
 use super::stop::{Instant, REST};
@@ -10,9 +9,6 @@ use super::vector::{inner, norm};
 use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, value};
 use crate::solver::ground::Stretch;
 use crate::solver::slider::{ROUNDING, falls_below, first_crossing, leading};
-
-/// A series in the time takes so much of the distance to its nearest singularity, `r/|ẇ|`.
-const REACH: f64 = 0.15;
 
 impl Plane<'_> {
     /// One step of a stick, perhaps to its release; the time reached.
@@ -29,12 +25,8 @@ impl Plane<'_> {
     }
 
     pub(super) fn expand_stick(&mut self, loads: Loads, left_s: f64) {
-        let mut unit_s = left_s;
-        if self.system.modes() > 0 {
-            unit_s = unit_s.min(4.0 / self.system.rate_rad_per_s);
-        }
-        let (system, scales) = (&self.system, &self.scales);
-        self.series.expand(system, (Kind::Stick, &self.state), (loads, unit_s), scales);
+        let unit_s = self.system.within_reach(left_s);
+        self.expand(Kind::Stick, (loads, unit_s));
     }
 
     /// `(μ_s N/M1)² − |p|²` in stick.
@@ -91,49 +83,28 @@ impl Plane<'_> {
                 self.state.w = [0.0; 2];
                 return at_s;
             }
-            return self.step_in_time(Kind::Frictionless, (stretch, at_s), loads, left_s);
+            return self.step_freely((stretch, at_s), loads);
         }
         let at = self.instant(&loads);
-        let (push, friction) = (norm(at.push), at.friction);
-        if at.speed == 0.0 {
-            self.starts = false;
-            return self.step_in_time(Kind::Start, (stretch, at_s), loads, left_s);
+        if at.speed > 0.0 {
+            let rest_s = at.time_to_rest(&self.system, &self.state, &loads, &self.scratch[0]);
+            if let Some(time_s) = rest_s.filter(|time_s| *time_s <= left_s) {
+                self.rest(&at, (&loads, time_s));
+                return at_s + time_s;
+            }
+            if at.is_at_rest(self.state.w, self.peak_speed) {
+                self.rest(&at, (&loads, 0.0));
+                return at_s;
+            }
         }
-        let w = self.state.w;
-        if let Some(time_s) = at.time_to_rest(&self.system, &self.state, &loads, &self.scratch[0])
-            && time_s <= left_s
-        {
-            self.rest(&at, (&loads, time_s));
-            return at_s + time_s;
-        }
-        if at.is_at_rest(w, self.peak_speed) {
-            self.rest(&at, (&loads, 0.0));
-            return at_s;
-        }
-        let u = w.map(|w| w / at.speed);
-        let force = [at.push[0] - friction * u[0], at.push[1] - friction * u[1]];
-        let change = norm(self.system.moved(force));
-        let reach_s = REACH * at.speed / change;
-        let near_s = at.speed / (friction + push);
-        // A step near rest covers some three times r/(f + |p|), and costs two or three of these.
-        if 3.0 * reach_s >= left_s || 2.0 * reach_s >= near_s {
-            let unit_s = left_s.min(2.0 * reach_s);
-            return self.step_in_time(Kind::Slip, (stretch, at_s), loads, unit_s);
-        }
-        self.step_near_rest(&at, (stretch, at_s), loads)
+        self.step_slip(&at, (stretch, at_s), loads)
     }
 
-    fn step_in_time(
-        &mut self,
-        kind: Kind,
-        (stretch, at_s): (&Stretch, f64),
-        loads: Loads,
-        unit_s: f64,
-    ) -> f64 {
-        let mut unit_s = unit_s;
+    /// One step without friction.
+    fn step_freely(&mut self, (stretch, at_s): (&Stretch, f64), loads: Loads) -> f64 {
+        let mut unit_s = self.system.within_reach(stretch.to_s - at_s);
         loop {
-            let (system, scales) = (&self.system, &self.scales);
-            self.series.expand(system, (kind, &self.state), (loads, unit_s), scales);
+            self.expand(Kind::Frictionless, (loads, unit_s));
             let part = self.series.part;
             // Far beyond what a series takes its terms lose their digits, and overflow.
             if part >= 1e-3 || part == 0.0 || !(unit_s > 0.0) {
@@ -141,15 +112,18 @@ impl Plane<'_> {
             }
             unit_s *= if part.is_nan() { 1e-4 } else { 4.0 * part };
         }
-        if kind == Kind::Frictionless
-            && let Some(part) = self.part_to_rest()
-        {
+        if let Some(part) = self.part_to_rest() {
             let to_s = self.move_by(stretch, at_s, part);
             self.state.w = [0.0; 2];
             return to_s;
         }
         let part = self.series.part;
         self.move_by(stretch, at_s, part)
+    }
+
+    /// Expands the motion from the state.
+    pub(super) fn expand(&mut self, kind: Kind, over: (Loads, f64)) {
+        self.series.expand(&self.system, (kind, &self.state), over, &self.scales);
     }
 
     /// Whether a slip without friction is at rest where the block would be held.
@@ -185,30 +159,6 @@ impl Plane<'_> {
         None
     }
 
-    fn step_near_rest(
-        &mut self,
-        at: &Instant,
-        (stretch, at_s): (&Stretch, f64),
-        loads: Loads,
-    ) -> f64 {
-        let left_s = stretch.to_s - at_s;
-        let unit = near_rest::unit(at.speed, at.friction + norm(at.push), left_s);
-        let (system, scales) = (&self.system, &self.scales);
-        let [_, sums] = &mut self.scratch;
-        if system.mass.is_some() {
-            self.series.expand_turning(system, &self.state, (loads, unit), scales, sums);
-        } else {
-            self.series.expand_near_rest(system, &self.state, (loads, unit), scales, sums);
-        }
-        let to = self.series.part_at(left_s);
-        let part = to.unwrap_or(self.series.part);
-        self.move_part(stretch, at_s, part);
-        match to {
-            Some(_) => stretch.to_s,
-            None => at_s + value(&self.series.time, part),
-        }
-    }
-
     /// Comes to rest after a time too short to move in.
     fn rest(&mut self, at: &Instant, (loads, time_s): (&Loads, f64)) {
         let (w, from) = (self.state.w, (at.pull, self.system.shear_n(&self.scratch[0])));
@@ -229,7 +179,7 @@ impl Plane<'_> {
     }
 
     /// Moves to a part of a series in the time; the time reached.
-    fn move_by(&mut self, stretch: &Stretch, at_s: f64, part: f64) -> f64 {
+    pub(super) fn move_by(&mut self, stretch: &Stretch, at_s: f64, part: f64) -> f64 {
         let to_s = at_s + part * self.series.unit;
         let is_whole = part == 1.0 && to_s >= stretch.to_s * (1.0 - 1e-15);
         self.move_part(stretch, at_s, part);
@@ -253,8 +203,8 @@ impl Plane<'_> {
     /// Looks for peaks up to the state, and adds to the path.
     fn look(&mut self, stretch: &Stretch, at_s: f64, part: f64) {
         self.look_for_peaks(stretch, at_s, part);
-        self.path_m += path_m(&self.series, part);
-        self.least.look(&self.series, part);
+        self.path_m += path_m(&self.series, (part, &self.force.speeds));
+        self.least.look(&self.series, (part, &self.force.speeds));
     }
 
     /// Looks for peaks in the first part of the series, up to the state.

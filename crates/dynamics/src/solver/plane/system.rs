@@ -215,15 +215,32 @@ impl System {
         })
     }
 
+    /// As much of a time as a series in it takes.
+    pub(super) fn within_reach(&self, left_s: f64) -> f64 {
+        left_s.min(4.0 / self.rate_rad_per_s)
+    }
+
     pub(super) fn modes(&self) -> usize {
         self.omega2.len()
+    }
+
+    /// `L` of a mode.
+    #[inline(always)]
+    pub(super) fn participation_of(&self, mode: usize) -> [f64; 2] {
+        [self.participation[0][mode], self.participation[1][mode]]
     }
 
     /// `p` from `P` and the acceleration of the table: what a block at rest is asked for.
     #[inline(always)]
     pub(super) fn push(&self, pull: [f64; 2], table: [f64; 2]) -> [f64; 2] {
-        let carried = self.mass.as_ref().map_or(table, |mass| times(&mass.relative, table));
+        let carried = self.asked(table);
         [pull[0] - carried[0], pull[1] - carried[1]]
+    }
+
+    /// The force over `M1` that an acceleration asks for.
+    #[inline(always)]
+    pub(super) fn asked(&self, acceleration: [f64; 2]) -> [f64; 2] {
+        self.mass.as_ref().map_or(acceleration, |mass| times(&mass.relative, acceleration))
     }
 
     /// The acceleration that a force over `M1` gives.

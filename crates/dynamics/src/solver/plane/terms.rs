@@ -1,5 +1,6 @@
 //! Which terms of a series are rounding.
 
+use super::nodes::NODES;
 use super::series::{Kind, Series};
 use super::system::State;
 use super::vector::norm;
@@ -8,8 +9,14 @@ use crate::linear::polynomial::Polynomial;
 /// A term of a series is left out where it is below this part of its scale.
 pub(super) const NEGLIGIBLE: f64 = 1e-17;
 
-/// Terms of a series that say how large it is: a slip from rest may start with the third power of the time.
-pub(super) const LOW: usize = 6;
+/// Terms of a series that say how large it is.
+const LOW: usize = 6;
+
+/// The least degree of a series: that of a velocity under a force by its values at the nodes, or what says how large it
+/// is.
+pub(super) fn lowest(kind: Kind) -> usize {
+    if kind == Kind::Slip { NODES } else { LOW }
+}
 
 /// Largest sizes so far, against which terms are negligible.
 #[derive(Clone, Copy, Debug, Default)]
@@ -36,10 +43,11 @@ pub(super) struct Sizes {
     s: f64,
     of_velocity: f64,
     push: f64,
-    slowing: f64,
     eta: f64,
     rate: f64,
     is_known: bool,
+    /// The last order looked at, and its term.
+    last: Option<(usize, f64)>,
 }
 
 impl Sizes {
@@ -49,18 +57,16 @@ impl Sizes {
         };
         let modes = series.modes;
         let of_modes = |list: &[f64], scale: f64| largest(&list[..LOW * modes], scale);
-        let is_near_rest = series.kind == Kind::NearRest;
-        let root = [series.root[0][0], series.root[1][0]];
         let is_stuck = series.kind == Kind::Stick;
         let push = |k: usize| series.push_squared(k);
         Self {
             s: first(&series.s, scales.s),
-            of_velocity: if is_near_rest { norm(root) } else { first(&series.w, scales.w) },
+            of_velocity: first(&series.w, scales.w),
             push: if is_stuck { (0..LOW).fold(0.0, |all, k| push(k).max(all)) } else { 1.0 },
-            slowing: largest(&series.slowing[..LOW], 0.0),
             eta: of_modes(&series.eta, scales.eta),
             rate: of_modes(&series.rate, scales.rate),
             is_known: true,
+            last: None,
         }
     }
 
@@ -70,20 +76,11 @@ impl Sizes {
         let pair = |c: &[Polynomial; 2], size: f64| over(c[0][k].abs().max(c[1][k].abs()), size);
         let of_kind = match series.kind {
             Kind::Stick => over(series.push_squared(k), self.push),
-            Kind::Frictionless => pair(&series.w, self.of_velocity),
-            Kind::Slip | Kind::Start => {
-                pair(&series.w, self.of_velocity).max(pair(&series.direction, 1.0))
-            }
-            Kind::NearRest => pair(&series.root, self.of_velocity),
-            // The speed spans many sizes: its own first term is what it is compared with.
-            Kind::Turning => {
-                over(series.speed[k].abs(), series.speed[0]).max(pair(&series.direction, 1.0))
-            }
+            Kind::Frictionless | Kind::Slip => pair(&series.w, self.of_velocity),
         };
         let at = k * series.modes..(k + 1) * series.modes;
         let of_modes = over(largest(&series.eta[at.clone()], 0.0), self.eta)
             .max(over(largest(&series.rate[at], 0.0), self.rate));
-        let of_kind = of_kind.max(over(series.slowing[k].abs(), self.slowing));
         of_kind.max(pair(&series.s, self.s)).max(of_modes)
     }
 
@@ -93,7 +90,13 @@ impl Sizes {
         if !self.is_known {
             *self = Self::of(series, scales);
         }
-        self.term(series, k) <= NEGLIGIBLE && self.term(series, k - 1) <= NEGLIGIBLE
+        let before = match self.last {
+            Some((order, term)) if order + 1 == k => term,
+            _ => self.term(series, k - 1),
+        };
+        let term = self.term(series, k);
+        self.last = Some((k, term));
+        term <= NEGLIGIBLE && before <= NEGLIGIBLE
     }
 }
 

@@ -1,0 +1,188 @@
+//! A step of a slip under friction.
+
+use super::Plane;
+use super::nodes::{NODES, nodes};
+use super::series::Kind;
+use super::stop::Instant;
+use super::system::Loads;
+use super::vector::{inner, norm};
+use crate::linear::polynomial::{derivative, value};
+use crate::solver::ground::Stretch;
+
+/// The last Legendre coefficients of friction over a step, times its length: of the largest speed, and of the least in the
+/// step, which has a direction. What they leave out is theirs squared at the end of a step, and a hundredth within.
+const TAIL: [f64; 2] = [1e-7, 1e-7];
+
+/// What of these coefficients over friction is rounding.
+const ROUNDING: f64 = 2.0 * f64::EPSILON;
+
+/// Part of the time to rest under the push as it is that a step takes.
+const OF_TIME_TO_REST: f64 = 0.75;
+
+/// Part of the time in which the velocity changes by itself that a step takes of a slip that slows down.
+const OF_CHANGE: f64 = 0.5;
+
+/// A speed below this part of those at the ends of a step is too near rest for it.
+const DIP: f64 = 0.05;
+
+/// A push above friction by less than this part is at it.
+const AT_BOUND: f64 = 1e-9;
+
+/// Most lengths that are tried for a step.
+const MOST_LENGTHS: usize = 100;
+
+/// What is beyond a part of a step.
+enum Tried {
+    /// The step stands, and one so many times as long would.
+    Stands(f64),
+    /// One so many times as long may stand.
+    Shorter(f64),
+}
+
+impl Plane<'_> {
+    /// One step; the time reached.
+    pub(super) fn step_slip(
+        &mut self,
+        at: &Instant,
+        (stretch, at_s): (&Stretch, f64),
+        loads: Loads,
+    ) -> f64 {
+        let left_s = stretch.to_s - at_s;
+        let starts = core::mem::take(&mut self.starts) || at.speed == 0.0;
+        let mut near_s = f64::INFINITY;
+        if starts {
+            self.next_s = f64::INFINITY;
+        } else {
+            near_s = self.reach_s(at);
+            // As rest comes nearer the direction turns faster.
+            if self.near_s.is_finite() && near_s < self.near_s {
+                self.next_s *= near_s / self.near_s;
+            }
+        }
+        self.near_s = near_s;
+        let whole_s = self.system.within_reach(left_s).min(near_s);
+        let mut step_s = whole_s.min(self.next_s);
+        for _ in 0..MOST_LENGTHS {
+            match self.try_slip(at, starts, (loads, step_s)) {
+                Tried::Shorter(part) => step_s *= part,
+                Tried::Stands(part) => {
+                    let longer_s = step_s * part;
+                    // What has been cut says nothing about how long a step may be.
+                    let was_cut = step_s < self.next_s && self.next_s.is_finite();
+                    self.next_s = if was_cut { longer_s.max(self.next_s) } else { longer_s };
+                    self.is_near_rest = starts || step_s >= near_s || self.next_s < 0.5 * left_s;
+                    return self.move_by(stretch, at_s, 1.0);
+                }
+            }
+            self.next_s = step_s;
+        }
+        at_s
+    }
+
+    /// How far a step may reach of a slip that slows down.
+    fn reach_s(&self, at: &Instant) -> f64 {
+        let (w, friction) = (self.state.w, at.friction);
+        let u = w.map(|w| w / at.speed);
+        let change = self.system.moved([0, 1].map(|k| at.push[k] - friction * u[k]));
+        if inner(u, change) >= 0.0 {
+            return f64::INFINITY;
+        }
+        let push = norm(at.push);
+        if self.system.mass.is_none() && push < friction {
+            let rest_s = (friction * at.speed + inner(at.push, w))
+                / ((friction - push) * (friction + push));
+            return OF_TIME_TO_REST * rest_s;
+        }
+        OF_CHANGE * at.speed / norm(change)
+    }
+
+    /// Tries a step of a length, leaving its series.
+    fn try_slip(&mut self, at: &Instant, starts: bool, (loads, step_s): (Loads, f64)) -> Tried {
+        self.expand(Kind::Frictionless, (loads, step_s));
+        if !(self.series.part >= 1.0) {
+            return Tried::Shorter(fitting(self.series.part));
+        }
+        self.force.free_of(&self.series);
+        let push = self.series.w.each_ref().map(derivative);
+        self.influence.prepare(&self.system, (&loads, step_s), &mut self.series);
+        let (law, along) = (self.system.kinetic_per_kg, self.direction);
+        if starts && norm(at.push) <= at.friction * (1.0 + AT_BOUND) {
+            // At its bound a block follows the push as that turns.
+            let (at, system) = (nodes().at, &self.system);
+            self.force.guess_each(&law, |j| {
+                let p = system.asked(push.each_ref().map(|p| value(p, at[j])));
+                let size = norm(p);
+                if size > 0.0 { p.map(|p| p / size) } else { along }
+            });
+        } else {
+            self.force.guess(&law, along, at.speed, &self.influence);
+        }
+        if !self.settle(step_s, (loads, along), at.speed) {
+            return Tried::Shorter(if starts { 0.3 } else { 0.5 });
+        }
+        let size = self.peak_speed.max(self.speed_scale);
+        let friction = self.force.largest();
+        // From rest the direction is that of the force, else that of the velocity.
+        let slowest = if starts { 0.1 * friction * step_s } else { self.force.slowest() };
+        let most = (TAIL[0] * size).min(TAIL[1] * slowest) / step_s;
+        let most = most.max(ROUNDING * friction);
+        // The eighth root: as many as there are nodes.
+        let longer = 0.9 * (most / self.series.tail).sqrt().sqrt().sqrt();
+        if self.series.tail > most {
+            return Tried::Shorter(longer.clamp(0.05, 0.7));
+        }
+        if !(self.series.part >= 1.0) {
+            return Tried::Shorter(fitting(self.series.part));
+        }
+        if !self.is_ahead_of_rest() {
+            return Tried::Shorter(0.6);
+        }
+        Tried::Stands(longer.clamp(0.5, 4.0))
+    }
+
+    /// Finds the force at the nodes and the motion under it.
+    fn settle(&mut self, step_s: f64, (loads, along): (Loads, [f64; 2]), speed: f64) -> bool {
+        let law = self.system.kinetic_per_kg;
+        // Of a pendulum under a vertical motion the influence changes along the step, which the series knows.
+        let varies = loads.normal[1] != 0.0 && self.system.per_radius > 0.0;
+        for _ in 0..if varies { 12 } else { 1 } {
+            if !self.force.settle(&law, &self.influence) {
+                return false;
+            }
+            let (friction, tail) = self.force.polynomial();
+            (self.series.friction, self.series.tail) = (friction, tail);
+            self.series.from = if speed > 0.0 { self.state.w.map(|w| w / speed) } else { along };
+            self.expand(Kind::Slip, (loads, step_s));
+            if !varies {
+                return true;
+            }
+            let mut off = 0.0_f64;
+            for axis in 0..2 {
+                for (j, x) in nodes().at.iter().enumerate() {
+                    let more = value(&self.series.w[axis], *x) - self.force.w[axis][j];
+                    self.force.free[axis][j] += more;
+                    off = off.max(more.abs());
+                }
+            }
+            if off <= 1e-16 * self.force.speeds.iter().fold(speed, |most, r| most.max(*r)) {
+                return true;
+            }
+        }
+        true
+    }
+
+    /// Whether the velocity keeps clear of rest up to the end of the step.
+    fn is_ahead_of_rest(&self) -> bool {
+        let (series, u) = (&self.series, &self.force.u);
+        let end = series.velocity_at(1.0);
+        let last = u.each_ref().map(|u| u[NODES - 1]);
+        let (from, to) = (norm(self.state.w), norm(end));
+        let least = if from > 0.0 { from.min(to) } else { 0.0 };
+        inner(end, last) > 0.0 && self.force.slowest() >= DIP * least
+    }
+}
+
+/// How much shorter a step is tried whose series takes a part of it.
+fn fitting(part: f64) -> f64 {
+    if part.is_nan() { 1e-4 } else { part.clamp(1e-3, 0.95) }
+}
