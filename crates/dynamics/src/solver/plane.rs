@@ -5,6 +5,7 @@
 //! directions are those of the velocity there (`force`); a step is as long as the direction allows (`slip`). What happens
 //! where a slip has come to rest is in `stop`. Peaks are those of the continuous motion (`peaks`).
 
+mod ahead;
 mod force;
 mod mass;
 mod nodes;
@@ -21,6 +22,7 @@ mod system;
 mod terms;
 mod vector;
 
+use self::ahead::Ahead;
 use self::force::{Force, Influence};
 use self::peaks::Peaks;
 use self::record::{Knot, Recorder};
@@ -43,6 +45,9 @@ use crate::slider::Direction;
 
 pub(super) use self::straight::{OnLine, on_line, solve};
 pub(super) use self::system::System;
+
+/// Roundings of the time within which two knots are one.
+const INSTANTS: f64 = 64.0;
 
 /// Part of the largest velocity of the table.
 const OF_TABLE: f64 = 0.1;
@@ -82,6 +87,7 @@ pub(super) struct Plane<'a> {
     path_m: f64,
     events: Vec<EventInPlane>,
     recorder: Option<Recorder>,
+    ahead: Option<Ahead>,
     /// Room for `g`, and for a sum of each mode.
     scratch: [Vec<f64>; 2],
 }
@@ -117,6 +123,7 @@ impl<'a> Plane<'a> {
             path_m: 0.0,
             events: Vec::new(),
             recorder: with_history.then(|| Recorder::new(&system)),
+            ahead: Ahead::new(&system, ground.sampling.dt_s),
             scratch: [vec![0.0; modes], vec![0.0; modes]],
             system,
             state,
@@ -239,8 +246,8 @@ impl<'a> Phase<'a> for Plane<'a> {
         walk.step(sample, from_s)
     }
 
-    fn run_ahead(_: &mut Walk<'a, Self>, [sample, _]: [usize; 2]) -> Result<Reached, SolveError> {
-        Ok(Reached { sample, at_s: 0.0 })
+    fn run_ahead(walk: &mut Walk<'a, Self>, samples: [usize; 2]) -> Result<Reached, SolveError> {
+        ahead::run_ahead(walk, samples)
     }
 
     fn segment(walk: &mut Walk<'a, Self>, stretch: &Stretch, at_s: f64) -> Result<f64, SolveError> {
@@ -251,7 +258,9 @@ impl<'a> Phase<'a> for Plane<'a> {
         // A step is counted as an event, one without length as a thousand: none of these moves on.
         walk.course.events_in_interval += if to_s > at_s { 1 } else { 1000 };
         let is_near_rest = walk.phase.series.kind == Kind::Slip && walk.phase.is_near_rest;
-        if is_near_rest && to_s < stretch.to_s {
+        // Where times are as close as that they tell no knot from the next.
+        let instant_s = INSTANTS * f64::EPSILON * walk.ground.times_s[stretch.interval];
+        if is_near_rest && to_s < stretch.to_s && to_s - at_s > instant_s {
             walk.record(stretch, to_s, false);
         }
         Ok(to_s)

@@ -4,6 +4,7 @@
 //! derivative times the square of the part: where the ends and that bound cannot exceed what has been attained,
 //! nothing is looked for; else the part is halved.
 
+use super::ahead::size_of_sum;
 use super::mass::{Matrix, times};
 use super::nodes::{NODES, nodes};
 use super::series::{Kind, Series, square};
@@ -254,6 +255,58 @@ impl Peaks {
 
     pub(super) fn of(&self, output: Output) -> Peak {
         self.all[output.place(self.points)]
+    }
+
+    /// Whether all that lies between the ends of a stick is below what is attained, as are these: tables, `P`, `p` and
+    /// `L g`, then `η` and `g`, at both, and how far `L g`, and `η` and `g` of each mode, depart from their chords.
+    pub(super) fn hold_in_stick(
+        &self,
+        system: &System,
+        (tables, pulls, pushes, shears_n): ([[f64; 2]; 2], [[f64; 2]; 2], [[f64; 2]; 2], [[f64; 2]; 2]),
+        (etas, gs): ([&[f64]; 2], [&[f64]; 2]),
+        (bend_n, [of_eta, of_g]): ([f64; 2], &[Vec<f64>; 2]),
+    ) -> bool {
+        let kg = system.block_kg;
+        let of_push = pushes.map(|push| push.map(|p| kg * p));
+        let of_slider = [0, 1].map(|i| {
+            [0, 1].map(|k| kg * pulls[i][k] - shears_n[i][k] - of_push[i][k])
+        });
+        let own = self.of(Output::Block).is_above(tables, [0.0; 2])
+            && self.of(Output::FrictionForce).is_above(of_push, bend_n)
+            && self.of(Output::SliderForce).is_above(of_slider, bend_n)
+            && self.of(Output::BaseShear).is_above(shears_n, bend_n);
+        let overturns = |axis: usize| {
+            let Some((arm, along)) = &system.overturning[axis] else { return true };
+            let mut ends = [[0.0; 2]; 2];
+            for i in 0..2 {
+                ends[i][axis] = inner(*along, tables[i]) - dot(arm, gs[i]);
+            }
+            let mut bend = [0.0; 2];
+            bend[axis] = size_of_sum(arm, of_g);
+            self.of(Output::Overturning).is_above_by_axis(ends, bend)
+        };
+        let point = |i: usize| {
+            let rows = [system.floor(0, i), system.floor(1, i)];
+            let of = |rows: [&[f64]; 2], lists: [&[f64]; 2]| {
+                lists.map(|list| rows.map(|row| dot(row, list)))
+            };
+            let bend = |rows: [&[f64]; 2], bends: &[f64]| rows.map(|row| size_of_sum(row, bends));
+            let mut accelerations = of(rows, gs);
+            if let Some(part) = system.with_block.get(i) {
+                for (acceleration, table) in accelerations.iter_mut().zip(tables) {
+                    let carried = times(part, table);
+                    *acceleration = [0, 1].map(|k| carried[k] - acceleration[k]);
+                }
+            }
+            let drift = i == 0 || {
+                let rows = [system.drift(0, i), system.drift(1, i)];
+                self.of(Output::Drift(i)).is_above(of(rows, etas), bend(rows, of_eta))
+            };
+            drift
+                && self.of(Output::Displacement(i)).is_above(of(rows, etas), bend(rows, of_eta))
+                && self.of(Output::Acceleration(i)).is_above(accelerations, bend(rows, of_g))
+        };
+        own && (0..2).all(overturns) && (0..self.points).all(point)
     }
 
     /// Looks for peaks in the first part of a series that begins at a time, and ends in a state.

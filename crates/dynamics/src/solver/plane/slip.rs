@@ -105,7 +105,8 @@ impl Plane<'_> {
         self.force.free_of(&self.series);
         let push = self.series.w.each_ref().map(derivative);
         self.influence.prepare(&self.system, (&loads, step_s), &mut self.series);
-        let (law, along) = (self.system.kinetic_per_kg, self.direction);
+        let (law, w) = (self.system.kinetic_per_kg, self.state.w);
+        let along = if at.speed > 0.0 { w.map(|w| w / at.speed) } else { self.direction };
         if starts && norm(at.push) <= at.friction * (1.0 + AT_BOUND) {
             // At its bound a block follows the push as that turns.
             let (at, system) = (nodes().at, &self.system);
@@ -151,7 +152,7 @@ impl Plane<'_> {
             }
             let (friction, tail) = self.force.polynomial();
             (self.series.friction, self.series.tail) = (friction, tail);
-            self.series.from = if speed > 0.0 { self.state.w.map(|w| w / speed) } else { along };
+            self.series.from = along;
             self.expand(Kind::Slip, (loads, step_s));
             if !varies {
                 return true;

@@ -176,6 +176,7 @@ impl Plane<'_> {
         let of = ([from.0, to.pull], [from.1, shear_n]);
         self.peaks.note_arc(&self.system, &arc, of, &self.scratch[0]);
         self.direction = arc.to;
+        self.is_near_rest = false;
     }
 
     /// Moves to a part of a series in the time; the time reached.

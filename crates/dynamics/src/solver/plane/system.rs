@@ -224,6 +224,11 @@ impl System {
         self.omega2.len()
     }
 
+    /// `Ω` and `D`, where no damper couples the modes.
+    pub(super) fn uncoupled(&self) -> Option<[&[f64]; 2]> {
+        (!self.coupled).then_some([&self.omega2, &self.damping])
+    }
+
     /// `L` of a mode.
     #[inline(always)]
     pub(super) fn participation_of(&self, mode: usize) -> [f64; 2] {

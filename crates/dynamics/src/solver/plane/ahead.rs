@@ -1,0 +1,202 @@
+//! Sticks over whole samples: each mode by its map, as far as bounds show that nothing happens in them.
+//!
+//! Where `ε = η − η_p` with the motion `η_p` that is linear in the time under a linear load, `ε̇² + ω² ε²` does not grow, so that
+//! with `R` its root at the start of a sample
+//!
+//! ```text
+//! |η̈| = |ε̈| ≤ (ω + d) R        |g̈| = |ε⁗| ≤ (ω² (ω + d) + d (ω² + d (ω + d))) R
+//! ```
+//!
+//! and no output departs by more from the chord between the ends of the sample than an eighth of `h²` times the sum of these.
+//! What that does not exclude is left to the series.
+
+use super::Plane;
+use super::system::{Loads, System};
+use super::vector::{inner, norm};
+use crate::error::SolveError;
+use crate::response::Mode;
+use crate::solver::phase::{Phase, Reached};
+use crate::solver::walk::Walk;
+
+/// Part of the bound up to which a push has certainly not reached it.
+const WITHIN: f64 = 1.0 - 1e-9;
+
+/// Terms of a Taylor series over a radian.
+const TERMS: usize = 20;
+
+/// How modes go through a sample of a stick.
+pub(super) struct Ahead {
+    step_s: f64,
+    modes: Vec<Map>,
+    /// How far `η` and `g` of each mode depart from their chords at most.
+    bends: [Vec<f64>; 2],
+    /// `η`, `η̇` and `g` at the end of a sample.
+    eta: Vec<f64>,
+    rate: Vec<f64>,
+    g: Vec<f64>,
+}
+
+/// The map of a mode over a sample, of `(η, η̇)`, of the load `−L·a` at its start and of the rate of that.
+#[derive(Clone, Copy)]
+struct Map {
+    of_state: [[f64; 2]; 2],
+    of_load: [f64; 2],
+    of_rate: [f64; 2],
+    omega2: f64,
+    damping: f64,
+    /// Factors on `R`.
+    bends: [f64; 2],
+}
+
+impl Map {
+    fn new(step_s: f64, omega2: f64, damping: f64) -> Self {
+        let omega = omega2.sqrt();
+        let parts = ((omega + damping) * step_s).ceil().max(1.0);
+        let part_s = step_s / parts;
+        let part = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
+            .map(|[eta, rate, load, load_rate]| {
+                let (mut term, mut sum) = ([eta, rate], [eta, rate]);
+                for k in 0..TERMS {
+                    let per = part_s / (k + 1) as f64;
+                    let load = match k {
+                        0 => load,
+                        1 => load_rate * part_s,
+                        _ => 0.0,
+                    };
+                    term = [per * term[1], per * (load - omega2 * term[0] - damping * term[1])];
+                    sum = [sum[0] + term[0], sum[1] + term[1]];
+                }
+                sum
+            });
+        let [of_eta, of_eta_rate, of_load, of_rate] = part;
+        let through = |x: [f64; 2]| [0, 1].map(|i| of_eta[i] * x[0] + of_eta_rate[i] * x[1]);
+        let mut map = Self {
+            of_state: [[1.0, 0.0], [0.0, 1.0]],
+            of_load: [0.0; 2],
+            of_rate: [0.0; 2],
+            omega2,
+            damping,
+            bends: [0.0; 2],
+        };
+        let mut columns = [[1.0, 0.0], [0.0, 1.0]];
+        for i in 0..parts as usize {
+            columns = columns.map(through);
+            let (load, rate) = (through(map.of_load), through(map.of_rate));
+            let later = i as f64 * part_s;
+            map.of_load = [0, 1].map(|k| load[k] + of_load[k]);
+            map.of_rate = [0, 1].map(|k| rate[k] + of_rate[k] + later * of_load[k]);
+        }
+        map.of_state = [0, 1].map(|i| [columns[0][i], columns[1][i]]);
+        let (eighth, sum) = (0.125 * step_s * step_s, omega + damping);
+        map.bends = [eighth * sum, eighth * (omega2 * sum + damping * (omega2 + damping * sum))];
+        map
+    }
+
+    /// `R` of a state under a load.
+    #[inline(always)]
+    fn size(&self, [eta, rate]: [f64; 2], [load, load_rate]: [f64; 2]) -> f64 {
+        let per = 1.0 / self.omega2;
+        let off = eta - per * (load - self.damping * per * load_rate);
+        let off_rate = rate - per * load_rate;
+        (off_rate * off_rate + self.omega2 * (off * off)).sqrt()
+    }
+
+    #[inline(always)]
+    fn through(&self, [eta, rate]: [f64; 2], [load, load_rate]: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|i| {
+            let [of_eta, of_rate] = self.of_state[i];
+            (of_eta * eta + of_rate * rate) + (self.of_load[i] * load + self.of_rate[i] * load_rate)
+        })
+    }
+}
+
+impl Ahead {
+    /// Of samples that are evenly spaced; none where dampers couple the modes, or one has no stiffness.
+    pub(super) fn new(system: &System, step_s: Option<f64>) -> Option<Self> {
+        let [omega2, damping] = system.uncoupled()?;
+        let step_s = step_s.filter(|_| omega2.iter().all(|omega2| *omega2 > 0.0))?;
+        let modes = omega2.iter().zip(damping).map(|(o, d)| Map::new(step_s, *o, *d)).collect();
+        let list = || vec![0.0; omega2.len()];
+        Some(Self { step_s, modes, bends: [list(), list()], eta: list(), rate: list(), g: list() })
+    }
+}
+
+/// Goes on through samples of a stick, as far as nothing is in doubt.
+pub(super) fn run_ahead<'a>(
+    walk: &mut Walk<'a, Plane<'a>>,
+    [mut sample, end]: [usize; 2],
+) -> Result<Reached, SolveError> {
+    let Some(mut ahead) = walk.phase.ahead.take() else { return Ok(Reached { sample, at_s: 0.0 }) };
+    let mut done = Ok(());
+    while walk.course.block.mode == Mode::Stick && !walk.phase.is_released && sample < end {
+        done = walk.pulse.beat(walk.units);
+        if done.is_err() || !walk.phase.passes(&mut ahead, sample) {
+            break;
+        }
+        if walk.phase.records() {
+            walk.phase.record_sample(&walk.course, sample, true);
+        }
+        let state = &mut walk.phase.state;
+        core::mem::swap(&mut state.eta, &mut ahead.eta);
+        core::mem::swap(&mut state.rate, &mut ahead.rate);
+        walk.phase.scales.note(&walk.phase.state);
+        walk.phase.least.interrupt();
+        sample += 1;
+    }
+    walk.phase.ahead = Some(ahead);
+    done?;
+    Ok(Reached { sample, at_s: 0.0 })
+}
+
+impl Plane<'_> {
+    /// Follows a sample of a stick; whether it is certain that nothing happens in it, no peak either.
+    fn passes(&mut self, ahead: &mut Ahead, sample: usize) -> bool {
+        let (system, state) = (&self.system, &self.state);
+        let [from, to] = [sample, sample + 1].map(|i| {
+            let normal_n = self.ground.normal_at(i);
+            ([self.ground.acceleration[i], self.table_y[i]], normal_n)
+        });
+        let per_s = 1.0 / ahead.step_s;
+        let change = [0, 1].map(|k| per_s * (to.0[k] - from.0[k]));
+        for (j, map) in ahead.modes.iter().enumerate() {
+            let l = system.participation_of(j);
+            let load = [-inner(l, from.0), -inner(l, change)];
+            let of = [state.eta[j], state.rate[j]];
+            let size = map.size(of, load);
+            [ahead.eta[j], ahead.rate[j]] = map.through(of, load);
+            ahead.g[j] = map.omega2 * ahead.eta[j] + map.damping * ahead.rate[j];
+            for (bends, factor) in ahead.bends.iter_mut().zip(map.bends) {
+                bends[j] = factor * size;
+            }
+        }
+        let g = &mut self.scratch[0];
+        system.restoring(&state.eta, &state.rate, g);
+        let shears = [system.shear_n(g), system.shear_n(&ahead.g)];
+        let bend_n = system.participation.each_ref().map(|l| size_of_sum(l, &ahead.bends[1]));
+        let ends = [from, to].map(|(table, normal_n)| Loads {
+            table: table.map(|a| [a, 0.0]),
+            normal: [normal_n, 0.0],
+        });
+        let pulls = [0, 1].map(|i| {
+            [0, 1].map(|k| system.pull(shears[i][k], state.s[k], 0.0, ends[i].normal[0] * state.s[k]))
+        });
+        let pushes = [0, 1].map(|i| ends[i].push(system, pulls[i]));
+        let bend = bend_n.map(|bend| bend / system.block_kg);
+        let hold = system.hold.radius(from.1.min(to.1));
+        let largest = norm(pushes[0]).max(norm(pushes[1])) + norm(bend);
+        hold > 0.0
+            && largest < WITHIN * hold
+            && self.peaks.hold_in_stick(
+                system,
+                ([from.0, to.0], pulls, pushes, shears),
+                ([&state.eta, &ahead.eta], [&*g, &ahead.g]),
+                (bend_n, &ahead.bends),
+            )
+    }
+}
+
+/// `Σ |a_j| b_j`.
+#[inline(always)]
+pub(super) fn size_of_sum(row: &[f64], bends: &[f64]) -> f64 {
+    row.iter().zip(bends).fold(0.0, |sum, (x, bend)| sum + x.abs() * bend)
+}
