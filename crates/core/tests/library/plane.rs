@@ -122,6 +122,7 @@ fn prop_mirrored_axes_mirror_the_response() {
     });
 }
 
+/// With these samples are uneven: nothing runs ahead over sticks as it does over even ones.
 #[test]
 fn prop_collinear_samples_change_nothing() {
     all_agree("collinear samples", false, |_, system| {

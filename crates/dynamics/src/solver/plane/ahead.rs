@@ -11,7 +11,8 @@
 //! What that does not exclude is left to the series.
 
 use super::Plane;
-use super::system::{Loads, System};
+use super::peaks::StickEnd;
+use super::system::System;
 use super::vector::{inner, norm};
 use crate::error::SolveError;
 use crate::response::Mode;
@@ -53,21 +54,26 @@ impl Map {
         let omega = omega2.sqrt();
         let parts = ((omega + damping) * step_s).ceil().max(1.0);
         let part_s = step_s / parts;
-        let part = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]
-            .map(|[eta, rate, load, load_rate]| {
-                let (mut term, mut sum) = ([eta, rate], [eta, rate]);
-                for k in 0..TERMS {
-                    let per = part_s / (k + 1) as f64;
-                    let load = match k {
-                        0 => load,
-                        1 => load_rate * part_s,
-                        _ => 0.0,
-                    };
-                    term = [per * term[1], per * (load - omega2 * term[0] - damping * term[1])];
-                    sum = [sum[0] + term[0], sum[1] + term[1]];
-                }
-                sum
-            });
+        let part = [
+            [1.0, 0.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0, 0.0],
+            [0.0, 0.0, 1.0, 0.0],
+            [0.0, 0.0, 0.0, 1.0],
+        ]
+        .map(|[eta, rate, load, load_rate]| {
+            let (mut term, mut sum) = ([eta, rate], [eta, rate]);
+            for k in 0..TERMS {
+                let per = part_s / (k + 1) as f64;
+                let load = match k {
+                    0 => load,
+                    1 => load_rate * part_s,
+                    _ => 0.0,
+                };
+                term = [per * term[1], per * (load - omega2 * term[0] - damping * term[1])];
+                sum = [sum[0] + term[0], sum[1] + term[1]];
+            }
+            sum
+        });
         let [of_eta, of_eta_rate, of_load, of_rate] = part;
         let through = |x: [f64; 2]| [0, 1].map(|i| of_eta[i] * x[0] + of_eta_rate[i] * x[1]);
         let mut map = Self {
@@ -171,27 +177,21 @@ impl Plane<'_> {
         }
         let g = &mut self.scratch[0];
         system.restoring(&state.eta, &state.rate, g);
-        let shears = [system.shear_n(g), system.shear_n(&ahead.g)];
+        let end = |(table, normal_n): ([f64; 2], f64), eta, g| {
+            let shear_n = system.shear_n(g);
+            let pull =
+                [0, 1].map(|k| system.pull(shear_n[k], state.s[k], 0.0, normal_n * state.s[k]));
+            StickEnd { table, pull, push: system.push(pull, table), shear_n, eta, g }
+        };
+        let ends = [end(from, &state.eta, g), end(to, &ahead.eta, &ahead.g)];
         let bend_n = system.participation.each_ref().map(|l| size_of_sum(l, &ahead.bends[1]));
-        let ends = [from, to].map(|(table, normal_n)| Loads {
-            table: table.map(|a| [a, 0.0]),
-            normal: [normal_n, 0.0],
-        });
-        let pulls = [0, 1].map(|i| {
-            [0, 1].map(|k| system.pull(shears[i][k], state.s[k], 0.0, ends[i].normal[0] * state.s[k]))
-        });
-        let pushes = [0, 1].map(|i| ends[i].push(system, pulls[i]));
         let bend = bend_n.map(|bend| bend / system.block_kg);
         let hold = system.hold.radius(from.1.min(to.1));
-        let largest = norm(pushes[0]).max(norm(pushes[1])) + norm(bend);
+        let largest = norm(ends[0].push).max(norm(ends[1].push)) + norm(bend);
+        let [first, last] = &ends;
         hold > 0.0
             && largest < WITHIN * hold
-            && self.peaks.hold_in_stick(
-                system,
-                ([from.0, to.0], pulls, pushes, shears),
-                ([&state.eta, &ahead.eta], [&*g, &ahead.g]),
-                (bend_n, &ahead.bends),
-            )
+            && self.peaks.hold_in_stick(system, [first, last], (bend_n, &ahead.bends))
     }
 }
 
@@ -199,4 +199,45 @@ impl Plane<'_> {
 #[inline(always)]
 pub(super) fn size_of_sum(row: &[f64], bends: &[f64]) -> f64 {
     row.iter().zip(bends).fold(0.0, |sum, (x, bend)| sum + x.abs() * bend)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A mode under a load that grows: the closed form, and no way off the chord farther than the bound.
+    #[test]
+    fn a_mode_goes_as_its_closed_form() {
+        for (omega, ratio, step_s) in
+            [(3.0_f64, 0.02, 0.01), (60.0, 0.0, 0.05), (400.0, 0.3, 0.02), (2.0, 1.5, 0.4)]
+        {
+            let (omega2, damping) = (omega * omega, 2.0 * ratio * omega);
+            let (start, load) = ([0.01, -0.2], [0.7, 30.0]);
+            // η_p + e^(−a t) (c cos νt + d sin νt), ν² = ω² − a², or with hyperbolic functions.
+            let closed = |t: f64| {
+                let a = 0.5 * damping;
+                let first = (load[0] - damping * load[1] / omega2) / omega2;
+                let (off, off_rate) = (start[0] - first, start[1] - load[1] / omega2);
+                let square: f64 = omega2 - a * a;
+                let nu = square.abs().sqrt();
+                let (cosine, sine) = match square > 0.0 {
+                    true => (libm::cos(nu * t), libm::sin(nu * t)),
+                    false => (libm::cosh(nu * t), libm::sinh(nu * t)),
+                };
+                let free = libm::exp(-a * t) * (off * cosine + (off_rate + a * off) / nu * sine);
+                first + load[1] / omega2 * t + free
+            };
+            let map = Map::new(step_s, omega2, damping);
+            let [end, _] = map.through(start, load);
+            let scale = start[0].abs() + start[1].abs() / omega + load[0].abs() / omega2;
+            assert!((end - closed(step_s)).abs() <= 2e-14 * scale, "{omega}: {end}");
+            let bend = map.bends[0] * map.size(start, load);
+            for i in 1..20 {
+                let part = f64::from(i) / 20.0;
+                let eta = closed(part * step_s);
+                let chord = start[0] + part * (end - start[0]);
+                assert!((eta - chord).abs() <= bend * (1.0 + 1e-12), "{omega} at {part}");
+            }
+        }
+    }
 }

@@ -169,7 +169,13 @@ impl Force {
     }
 
     /// Directions to begin with: those of the velocity under friction along one direction.
-    pub(super) fn guess(&mut self, law: &Kinetic, along: [f64; 2], speed: f64, influence: &Influence) {
+    pub(super) fn guess(
+        &mut self,
+        law: &Kinetic,
+        along: [f64; 2],
+        speed: f64,
+        influence: &Influence,
+    ) {
         self.sizes = self.normal_n.map(|n| law.at(speed) * n);
         self.speeds = [speed; NODES];
         self.u = along.map(|u| [u; NODES]);

@@ -135,21 +135,21 @@ mod tests {
     #[test]
     fn tables_are_exact() {
         let nodes = nodes();
-        let of = |x: f64| (x - 0.3) * x.powi(6) + 0.5;
+        let of = |x: f64| (x - 0.3) * libm::pow(x, 6.0) + 0.5;
         let values = nodes.at.map(of);
         let polynomial = nodes.polynomial(&nodes.coefficients(&values));
         for x in [0.0, 0.2, 0.7, 1.0] {
-            assert!((value(&polynomial, x) - of(x)).abs() <= 4e-15, "at {x}");
+            assert!((value(&polynomial, x) - of(x)).abs() <= 4e-14, "at {x}");
         }
         let [whole, ..] = nodes.coefficients(&values);
         assert!((whole - (1.0 / 8.0 - 0.3 / 7.0 + 0.5)).abs() <= 1e-15);
         // ∫₀^c (c − x)^l x^7 dx = c^(l+8) l! 7!/(l+8)!
-        let seventh = nodes.at.map(|x| x.powi(7));
+        let seventh = nodes.at.map(|x| libm::pow(x, 7.0));
         for (l, of_l) in nodes.integrals.iter().enumerate() {
             let beta: f64 = (1..=7).map(|m| m as f64 / (l + 1 + m) as f64).product();
             for (j, c) in nodes.at.iter().enumerate() {
                 let found: f64 = of_l[j].iter().zip(seventh).map(|(g, x)| g * x).sum();
-                let expected = beta / (l + 1) as f64 * c.powi(l as i32 + 8);
+                let expected = beta / (l + 1) as f64 * libm::pow(*c, (l + 8) as f64);
                 assert!((found - expected).abs() <= 1e-15 * expected + 1e-17, "{l} {j}");
             }
         }

@@ -171,6 +171,16 @@ pub(super) struct Peaks {
     pub(super) smallest: [f64; 2],
 }
 
+/// An end of a sample of a stick: the table, `P`, `p`, `L g`, `η` and `g`.
+pub(super) struct StickEnd<'a> {
+    pub(super) table: [f64; 2],
+    pub(super) pull: [f64; 2],
+    pub(super) push: [f64; 2],
+    pub(super) shear_n: [f64; 2],
+    pub(super) eta: &'a [f64],
+    pub(super) g: &'a [f64],
+}
+
 /// What a vector output is made of: `a P + b L g − c φ`, with `φ = f u`, in stick `p`.
 struct Composed {
     of_pull: f64,
@@ -257,24 +267,24 @@ impl Peaks {
         self.all[output.place(self.points)]
     }
 
-    /// Whether all that lies between the ends of a stick is below what is attained, as are these: tables, `P`, `p` and
-    /// `L g`, then `η` and `g`, at both, and how far `L g`, and `η` and `g` of each mode, depart from their chords.
+    /// Whether all that lies between the ends of a sample of a stick, and these, is below what is attained; with how far
+    /// `L g`, and `η` and `g` of each mode, depart from their chords.
     pub(super) fn hold_in_stick(
         &self,
         system: &System,
-        (tables, pulls, pushes, shears_n): ([[f64; 2]; 2], [[f64; 2]; 2], [[f64; 2]; 2], [[f64; 2]; 2]),
-        (etas, gs): ([&[f64]; 2], [&[f64]; 2]),
+        ends: [&StickEnd<'_>; 2],
         (bend_n, [of_eta, of_g]): ([f64; 2], &[Vec<f64>; 2]),
     ) -> bool {
+        let tables = ends.map(|end| end.table);
+        let (etas, gs) = (ends.map(|end| end.eta), ends.map(|end| end.g));
         let kg = system.block_kg;
-        let of_push = pushes.map(|push| push.map(|p| kg * p));
-        let of_slider = [0, 1].map(|i| {
-            [0, 1].map(|k| kg * pulls[i][k] - shears_n[i][k] - of_push[i][k])
-        });
+        let of_push = ends.map(|end| end.push.map(|p| kg * p));
+        let of_slider =
+            ends.map(|end| [0, 1].map(|k| kg * (end.pull[k] - end.push[k]) - end.shear_n[k]));
         let own = self.of(Output::Block).is_above(tables, [0.0; 2])
             && self.of(Output::FrictionForce).is_above(of_push, bend_n)
             && self.of(Output::SliderForce).is_above(of_slider, bend_n)
-            && self.of(Output::BaseShear).is_above(shears_n, bend_n);
+            && self.of(Output::BaseShear).is_above(ends.map(|end| end.shear_n), bend_n);
         let overturns = |axis: usize| {
             let Some((arm, along)) = &system.overturning[axis] else { return true };
             let mut ends = [[0.0; 2]; 2];
@@ -592,9 +602,8 @@ fn friction_at(system: &System, series: &Series, x: f64) -> [f64; 2] {
         let [of_x, of_y] = series.friction.each_ref();
         let first = [of_x[0], of_y[0]];
         let at_rest = system.kinetic_per_kg.at(0.0) * normal_n;
-        let along = [(of_x, 0), (of_y, 1)].map(|(of, axis)| {
-            value(of, x) + (at_rest * series.from[axis] - first[axis]) * part
-        });
+        let along = [(of_x, 0), (of_y, 1)]
+            .map(|(of, axis)| value(of, x) + (at_rest * series.from[axis] - first[axis]) * part);
         let length = norm(along);
         return if length > 0.0 { along.map(|u| size / length * u) } else { [0.0; 2] };
     }

@@ -89,8 +89,8 @@ impl Plane<'_> {
         }
         let push = norm(at.push);
         if self.system.mass.is_none() && push < friction {
-            let rest_s = (friction * at.speed + inner(at.push, w))
-                / ((friction - push) * (friction + push));
+            let rest_s =
+                (friction * at.speed + inner(at.push, w)) / ((friction - push) * (friction + push));
             return OF_TIME_TO_REST * rest_s;
         }
         OF_CHANGE * at.speed / norm(change)
@@ -103,15 +103,16 @@ impl Plane<'_> {
             return Tried::Shorter(fitting(self.series.part));
         }
         self.force.free_of(&self.series);
-        let push = self.series.w.each_ref().map(derivative);
+        let is_at_bound = starts && norm(at.push) <= at.friction * (1.0 + AT_BOUND);
+        let changes = is_at_bound.then(|| self.series.w.each_ref().map(derivative));
         self.influence.prepare(&self.system, (&loads, step_s), &mut self.series);
         let (law, w) = (self.system.kinetic_per_kg, self.state.w);
         let along = if at.speed > 0.0 { w.map(|w| w / at.speed) } else { self.direction };
-        if starts && norm(at.push) <= at.friction * (1.0 + AT_BOUND) {
+        if let Some(changes) = changes {
             // At its bound a block follows the push as that turns.
             let (at, system) = (nodes().at, &self.system);
             self.force.guess_each(&law, |j| {
-                let p = system.asked(push.each_ref().map(|p| value(p, at[j])));
+                let p = system.asked(changes.each_ref().map(|w| value(w, at[j])));
                 let size = norm(p);
                 if size > 0.0 { p.map(|p| p / size) } else { along }
             });

@@ -10,8 +10,8 @@ const NO_PATH_M: f64 = 1e-22;
 /// A bound on the path beyond which the way to rest of a block with a mass in each direction is not followed.
 const MASSIVE_PATH_M: f64 = 1e2 * NO_PATH_M;
 
-/// Part of friction by which a push may change over the last turn of a block with a mass in each direction.
-const STANDS: f64 = 1e-12;
+/// Part of friction by which a push may change over the last turn: of one mass, and of one in each direction.
+const STANDS: [f64; 2] = [1e-11, 1e-12];
 
 /// Parts of an arc that are looked at.
 const LOOKS: usize = 32;
@@ -76,9 +76,12 @@ impl Instant {
         let of_friction = per_n * loads.normal[1].abs();
         let rate =
             2.0 * inertia * compliance * self.rate_of_push(system, state, loads, g) + of_friction;
-        // What friction does in all directions of the last turn is told by the push at rest, which a block with a mass in
-        // each direction may be a while from.
-        let lasts = system.mass.is_none() || rate * longest_s < STANDS * f;
+        // What friction does in all directions of the last turn is told by the push at both of its ends, or, of a block with
+        // a mass in each direction, at rest alone, which it may be a while from.
+        let lasts = match &system.mass {
+            None => rate * time_s < STANDS[0] * f,
+            Some(_) => rate * longest_s < STANDS[1] * f,
+        };
         (lasts && p + rate * longest_s < f).then_some(time_s.max(0.0))
     }
 
