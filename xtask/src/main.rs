@@ -25,8 +25,10 @@ Usage: cargo xtask TASK
   nightly                        the tests that take minutes, coverage of intervals, every fuzz
                                  target for ten minutes (installs cargo-fuzz)
   release-check                  page, binary and wheel built as a release has them, and tested
-  bench-build [--write]          times a fresh clone: first answer, a change of the solver, tests,
-                                 ci, pip install (--write: into book/src/generated/building.md)
+  bench-build [WORD...] [--write]
+                                 times a fresh clone: first answer, a change of the solver, tests,
+                                 pip install, ci (WORD: those with one of these words in their
+                                 names; --write: into book/src/generated/building.md)
   reference [--write]            every reference case: truth, tolerance, error reached
                                  (--write: into book/src/generated/verification.md)
   console [--write]              runs the commands that README and book show and compares what
