@@ -76,7 +76,7 @@ pub(super) struct Plane<'a> {
     next_s: f64,
     /// How far from rest the last one began, as a time in s.
     near_s: f64,
-    /// The last step was short because of rest.
+    /// The last step was short because of rest, or of how fast its direction turns: its end is a knot.
     is_near_rest: bool,
     series: Series,
     influence: Influence,
@@ -88,8 +88,8 @@ pub(super) struct Plane<'a> {
     events: Vec<EventInPlane>,
     recorder: Option<Recorder>,
     ahead: Option<Ahead>,
-    /// Room for `g`, and for a sum of each mode.
-    scratch: [Vec<f64>; 2],
+    /// Room for `g`.
+    g: Vec<f64>,
 }
 
 impl<'a> Plane<'a> {
@@ -124,7 +124,7 @@ impl<'a> Plane<'a> {
             events: Vec::new(),
             recorder: with_history.then(|| Recorder::new(&system)),
             ahead: Ahead::new(&system, ground.sampling.dt_s),
-            scratch: [vec![0.0; modes], vec![0.0; modes]],
+            g: vec![0.0; modes],
             system,
             state,
         }
@@ -147,7 +147,7 @@ impl<'a> Plane<'a> {
     }
 
     fn instant(&mut self, loads: &Loads) -> Instant {
-        Instant::new(&self.system, &self.state, loads, &mut self.scratch[0])
+        Instant::new(&self.system, &self.state, loads, &mut self.g)
     }
 
     // ---- decisions ------------------------------------------------------------------------------
@@ -192,7 +192,7 @@ impl<'a> Plane<'a> {
     /// that does not vanish is negative.
     fn leaves(&mut self, loads: Loads, at: &Instant) -> bool {
         let now = at.holds * at.holds - inner(at.push, at.push);
-        let rounding = self.rounding_of_distance(&loads, at.push, &self.scratch[0]);
+        let rounding = self.rounding_of_distance(&loads, at.push, &self.g);
         if now.abs() > rounding {
             return now < 0.0;
         }
@@ -205,7 +205,7 @@ impl<'a> Plane<'a> {
         let Some(recorder) = &mut self.recorder else { return };
         let (system, table) = (&self.system, [x, y]);
         let loads = Loads { table: table.map(|a| [a, 0.0]), normal: [normal_n, 0.0] };
-        let at = Instant::new(system, &self.state, &loads, &mut self.scratch[0]);
+        let at = Instant::new(system, &self.state, &loads, &mut self.g);
         let (block, friction_n) = match mode {
             Mode::Stick => (table, at.push.map(|p| -system.block_kg * p)),
             Mode::Slip(_) => {
@@ -215,7 +215,7 @@ impl<'a> Plane<'a> {
             }
         };
         let State { s, w, eta, rate } = &self.state;
-        let (s, w, g) = (*s, *w, &self.scratch[0]);
+        let (s, w, g) = (*s, *w, &self.g);
         let knot = Knot { time_s, mode, table, s, w, block, friction_n, eta, rate, g };
         recorder.store(system, &knot, row);
     }

@@ -175,7 +175,7 @@ impl Plane<'_> {
                 bends[j] = factor * size;
             }
         }
-        let g = &mut self.scratch[0];
+        let g = &mut self.g;
         system.restoring(&state.eta, &state.rate, g);
         let end = |(table, normal_n): ([f64; 2], f64), eta, g| {
             let shear_n = system.shear_n(g);

@@ -87,7 +87,7 @@ impl Plane<'_> {
         }
         let at = self.instant(&loads);
         if at.speed > 0.0 {
-            let rest_s = at.time_to_rest(&self.system, &self.state, &loads, &self.scratch[0]);
+            let rest_s = at.time_to_rest(&self.system, &self.state, &loads, &self.g);
             if let Some(time_s) = rest_s.filter(|time_s| *time_s <= left_s) {
                 self.rest(&at, (&loads, time_s));
                 return at_s + time_s;
@@ -161,20 +161,20 @@ impl Plane<'_> {
 
     /// Comes to rest after a time too short to move in.
     fn rest(&mut self, at: &Instant, (loads, time_s): (&Loads, f64)) {
-        let (w, from) = (self.state.w, (at.pull, self.system.shear_n(&self.scratch[0])));
+        let (w, from) = (self.state.w, (at.pull, self.system.shear_n(&self.g)));
         // ∫ b dt = −w + a Θ
         let impulse = [0, 1].map(|k| loads.table[k][0] * time_s - self.state.w[k]);
         for j in 0..self.system.modes() {
             let l = [self.system.participation[0][j], self.system.participation[1][j]];
             self.state.eta[j] += self.state.rate[j] * time_s;
-            self.state.rate[j] -= self.scratch[0][j] * time_s + inner(l, impulse);
+            self.state.rate[j] -= self.g[j] * time_s + inner(l, impulse);
         }
         self.state.w = [0.0; 2];
         let to = self.instant(&loads.after(time_s));
         let arc = at.arc(&self.system, w, &to);
-        let shear_n = self.system.shear_n(&self.scratch[0]);
+        let shear_n = self.system.shear_n(&self.g);
         let of = ([from.0, to.pull], [from.1, shear_n]);
-        self.peaks.note_arc(&self.system, &arc, of, &self.scratch[0]);
+        self.peaks.note_arc(&self.system, &arc, of, &self.g);
         self.direction = arc.to;
         self.is_near_rest = false;
     }
@@ -211,7 +211,7 @@ impl Plane<'_> {
     /// Looks for peaks in the first part of the series, up to the state.
     pub(super) fn look_for_peaks(&mut self, stretch: &Stretch, at_s: f64, part: f64) {
         let from_s = self.ground.times_s[stretch.interval] + at_s;
-        let [g, _] = &mut self.scratch;
+        let g = &mut self.g;
         self.system.restoring(&self.state.eta, &self.state.rate, g);
         self.peaks.look(&self.system, (&self.series, part), from_s, (&self.state, g));
     }
