@@ -102,10 +102,11 @@ fn alarm_in_plane(seed: u64) -> Option<String> {
 
 /// What passes rest slower than rounding tells, and turned to a direction on the way; slips that are one step from rest to
 /// rest, whose last velocity has no direction; a push that friction exceeds by a part of 4e-4; a last turn of a structure by
-/// its modes that took so long that the push changed.
+/// its modes, and one of a frame with stiff dampers, that took so long that the push changed; a direction between the nodes
+/// of a slow slip.
 #[test]
 fn models_in_two_directions_that_once_raised_an_alarm_raise_none() {
-    for seed in [63, 535, 594, 1052, 5934, 6488, 7504] {
+    for seed in [63, 535, 594, 1052, 2099, 5934, 6488, 7504, 8067] {
         assert_eq!(alarm_in_plane(seed), None, "{seed}");
     }
 }

@@ -11,7 +11,7 @@ use crate::solver::ground::Stretch;
 
 /// The last Legendre coefficients of friction over a step, times its length: of the largest speed, and of the least in the
 /// step, which has a direction. What they leave out is theirs squared at the end of a step, and a hundredth within.
-const TAIL: [f64; 2] = [1e-7, 1e-7];
+const TAIL: [f64; 2] = [1e-7, 1e-8];
 
 /// What of these coefficients over friction is rounding.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
