@@ -11,7 +11,7 @@
 //! What that does not exclude is left to the series.
 
 use super::Plane;
-use super::peaks::StickEnd;
+use super::peaks::{StickEnd, size_of_sum};
 use super::system::System;
 use super::vector::{inner, norm};
 use crate::error::SolveError;
@@ -193,12 +193,6 @@ impl Plane<'_> {
             && largest < WITHIN * hold
             && self.peaks.hold_in_stick(system, [first, last], (bend_n, &ahead.bends))
     }
-}
-
-/// `Σ |a_j| b_j`.
-#[inline(always)]
-pub(super) fn size_of_sum(row: &[f64], bends: &[f64]) -> f64 {
-    row.iter().zip(bends).fold(0.0, |sum, (x, bend)| sum + x.abs() * bend)
 }
 
 #[cfg(test)]

@@ -141,7 +141,7 @@ pub(super) struct Force {
     sizes: AtNodes,
     /// `w` without friction, and `N` at the nodes.
     pub(super) free: [AtNodes; 2],
-    pub(super) normal_n: AtNodes,
+    normal_n: AtNodes,
 }
 
 impl Force {

@@ -4,7 +4,6 @@
 //! derivative times the square of the part: where the ends and that bound cannot exceed what has been attained,
 //! nothing is looked for; else the part is halved.
 
-use super::ahead::size_of_sum;
 use super::mass::{Matrix, times};
 use super::nodes::{NODES, nodes};
 use super::series::{Kind, Series, square};
@@ -372,7 +371,7 @@ impl Peaks {
                     let row = with_block[axis];
                     core::array::from_fn(|k| inner(row, [x[k], y[k]]) - of_modes[k])
                 });
-                let of_friction = with_block.map(|row| transposed(&block.of_friction, row));
+                let of_friction = with_block.map(|row| row_times(row, &block.of_friction));
                 self.look_at_vector(Output::Acceleration(i), &Vector { steady, of_friction }, part);
                 continue;
             }
@@ -392,7 +391,7 @@ impl Peaks {
     ) {
         let peak = &mut self.all[output.place(self.points)];
         let ends = [list, last].map(|x| rows.map(|row| dot(row, &x[..row.len()])));
-        let bend = rows.map(|row| row.iter().zip(bends).map(|(x, bend)| x.abs() * bend).sum());
+        let bend = rows.map(|row| size_of_sum(row, bends));
         peak.note_ends(ends, to);
         if !peak.is_above(ends, bend) {
             peak.look(&rows.map(|row| combined(row, list, series.degree)), to);
@@ -460,7 +459,7 @@ impl Peaks {
                 core::array::from_fn(|k| inner(*along, [pull[0][k], pull[1][k]]) - modes[k])
             };
             let (steady, of_friction) = match &own {
-                Some(block) => (of_block(&block.steady), transposed(&block.of_friction, *along)),
+                Some(block) => (of_block(&block.steady), row_times(*along, &block.of_friction)),
                 None => (of_block(&series.pull), *along),
             };
             let mut moment = Vector { steady: [ZERO; 2], of_friction: [[0.0; 2]; 2] };
@@ -576,6 +575,12 @@ impl Peaks {
     }
 }
 
+/// `Σ |a_j| b_j`.
+#[inline(always)]
+pub(super) fn size_of_sum(row: &[f64], bends: &[f64]) -> f64 {
+    row.iter().zip(bends).fold(0.0, |sum, (x, bend)| sum + x.abs() * bend)
+}
+
 /// A row of the modes as a series.
 fn combined(row: &[f64], list: &[f64], order: usize) -> Polynomial {
     let modes = row.len();
@@ -610,19 +615,24 @@ fn friction_at(system: &System, series: &Series, x: f64) -> [f64; 2] {
     w.map(|w| size / speed * w)
 }
 
-/// How far it departs from its chord by axis: of a slip that of the polynomial through its values at the nodes, and the
-/// second derivative of what that leaves out, which is less than its last coefficients.
+/// How far what the polynomial of friction leaves out in a slip departs from its chord at most: its coefficients are below
+/// the last of those.
+fn left_out(series: &Series, to: f64) -> f64 {
+    if series.kind == Kind::Slip { 0.125 * LEFT_OUT * series.tail * (to * to) } else { 0.0 }
+}
+
+/// How far it departs from its chord by axis: of a slip that of the polynomial, and of what that leaves out.
 fn friction_chord(system: &System, series: &Series, to: f64) -> [Chord; 2] {
     let [from, end] = [0.0, to].map(|x| friction_at(system, series, x));
-    let left_out = if series.kind == Kind::Slip { 0.125 * LEFT_OUT * series.tail } else { 0.0 };
+    let left_out = left_out(series, to);
     [0, 1].map(|axis| {
-        let bend = bend(&series.friction[axis], to) + left_out * (to * to);
+        let bend = bend(&series.friction[axis], to) + left_out;
         Chord { ends: [from[axis], end[axis]], bend }
     })
 }
 
 /// A row times a matrix.
-fn transposed(matrix: &Matrix, row: [f64; 2]) -> [f64; 2] {
+fn row_times(row: [f64; 2], matrix: &Matrix) -> [f64; 2] {
     let [[a, b], [c, d]] = *matrix;
     [row[0] * a + row[1] * c, row[0] * b + row[1] * d]
 }
@@ -650,7 +660,7 @@ impl Vector {
         let ends = [of(0.0), of(to)];
         peak.note_ends(ends, to);
         let rounding = ROUNDING * peak.norm;
-        let left_out = 0.125 * LEFT_OUT * series.tail * (to * to);
+        let left_out = left_out(series, to);
         let mut bends = [0.0; 2];
         for axis in 0..2 {
             bends[axis] = bend(&all[axis], to) + norm(self.of_friction[axis]) * left_out;

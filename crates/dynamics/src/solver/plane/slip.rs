@@ -31,7 +31,7 @@ const AT_BOUND: f64 = 1e-9;
 /// Most lengths that are tried for a step.
 const MOST_LENGTHS: usize = 100;
 
-/// What is beyond a part of a step.
+/// What became of a step that was tried.
 enum Tried {
     /// The step stands, and one so many times as long would.
     Stands(f64),

@@ -41,16 +41,12 @@ impl Least {
 
     /// The same of a slip, whose speed falls and rises between its nodes as the speeds there tell.
     fn look_at_nodes(&mut self, series: &Series, (to, speeds): (f64, &AtNodes)) {
-        let slope = slope_of(series);
-        let of = |x: f64| norm(series.velocity_at(x));
-        let [start, end] = [0.0, to].map(&slope);
         if to == 0.0 {
             return;
         }
-        if self.is_falling && start >= 0.0 {
-            self.note(of(0.0));
-        }
-        self.is_falling = end < 0.0;
+        let slope = slope_of(series);
+        let of = |x: f64| norm(series.velocity_at(x));
+        self.look_at_ends(&slope, of, to);
         let at = |i: usize| match i {
             0 => 0.0,
             i if i > NODES => to,
@@ -70,6 +66,15 @@ impl Least {
         }
     }
 
+    /// Whether the speed that fell before rises at the start, and whether it falls at the end.
+    fn look_at_ends(&mut self, slope: impl Fn(f64) -> f64, of: impl Fn(f64) -> f64, to: f64) {
+        let [start, end] = [0.0, to].map(&slope);
+        if self.is_falling && start >= 0.0 {
+            self.note(of(0.0));
+        }
+        self.is_falling = end < 0.0;
+    }
+
     /// Looks at a speed over `[0, to]` by a function that has the sign of its slope, and its lower bound. A speed that
     /// stays turns where it leaves.
     fn look_at(
@@ -81,11 +86,7 @@ impl Least {
         if to == 0.0 {
             return;
         }
-        let [start, end] = [0.0, to].map(&slope);
-        if self.is_falling && start >= 0.0 {
-            self.note(of(0.0));
-        }
-        self.is_falling = end < 0.0;
+        self.look_at_ends(&slope, &of, to);
         if self.speed.is_none_or(|least| lowest < least) {
             for (x, is_least) in turns(slope, to) {
                 // At the end it is a minimum if the slip goes on.
@@ -150,7 +151,7 @@ fn bisected(slope: &impl Fn(f64) -> f64, sign: f64, [mut low, mut high]: [f64; 2
 }
 
 /// A bound on the least speed over the first part of a series: that of its chord, less how far it departs from it.
-pub(super) fn lowest(series: &Series, to: f64) -> f64 {
+fn lowest(series: &Series, to: f64) -> f64 {
     let [from, end] = [0.0, to].map(|x| series.velocity_at(x));
     let chord = [end[0] - from[0], end[1] - from[1]];
     let square = inner(chord, chord);
