@@ -13,6 +13,7 @@ mod devices;
 mod devices_nasty;
 mod devices_random;
 mod false_alarms;
+mod fine_integration;
 mod laboratory;
 mod layers;
 mod measures;

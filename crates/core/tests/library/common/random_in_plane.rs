@@ -262,10 +262,9 @@ pub fn libm_sin(x: f64) -> f64 {
     x.sin()
 }
 
-/// A model and a motion of a seed in two directions: every other one a structure by its modes, of which some are cut in
-/// half of them, so that what moves with the block joins x and y; a tenth with storeys a hundred times as stiff as those
-/// beside them.
-pub fn in_plane(seed: u64) -> (Model, GroundMotion) {
+/// A system of a seed, a tenth with storeys a hundred times as stiff as those beside them, and a tenth with storeys that
+/// ring up to 30 radians from a sample to the next; and the numbers that follow.
+pub fn with_stiff_storeys(seed: u64) -> (System, Random) {
     let mut system = System::random(seed, seed.is_multiple_of(7));
     let mut r = Random::new(7_000_003 + seed);
     if r.chance(0.1) {
@@ -274,6 +273,26 @@ pub fn in_plane(seed: u64) -> (Model, GroundMotion) {
             k.iter_mut().skip(first).step_by(2).for_each(|stiff| *stiff *= 100.0);
         }
     }
+    let mut other = Random::new(11_000_027 + seed);
+    if other.chance(0.1) {
+        let step_s = system.times_s[1] - system.times_s[0];
+        let of =
+            |k: &Vec<f64>| k.iter().zip(&system.floors_kg).map(|(k, m)| k / m).fold(0.0, f64::max);
+        // No frame rings faster than twice the fastest of its storeys by itself, or hardly.
+        let fastest = 2.0 * system.stiffnesses.iter().map(of).fold(0.0, f64::max).sqrt();
+        let wanted = other.between(3.0, 30.0) / step_s;
+        if fastest > 0.0 && wanted > fastest {
+            let factor = (wanted / fastest) * (wanted / fastest);
+            system.stiffnesses.iter_mut().flatten().for_each(|stiff| *stiff *= factor);
+        }
+    }
+    (system, r)
+}
+
+/// A model and a motion of a seed in two directions: every other one a structure by its modes, of which some are cut in
+/// half of them, so that what moves with the block joins x and y.
+pub fn in_plane(seed: u64) -> (Model, GroundMotion) {
+    let (mut system, mut r) = with_stiff_storeys(seed);
     let is_by_modes = seed.is_multiple_of(2) && !system.floors_kg.is_empty();
     // Ratios of critical damping are what modes have.
     system.dampers &= !is_by_modes;
