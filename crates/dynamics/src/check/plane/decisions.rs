@@ -3,7 +3,7 @@
 use super::super::collocation::POINTS;
 use super::super::ground::nearest;
 use super::super::structure::larger;
-use super::frame::{Loads, Pair, between, dot, norm, unit};
+use super::frame::{Loads, Pair, between, dot, norm, pair, unit};
 use super::judge::{EventDirection, Minima, PlaneJudge, REST};
 use super::step::{FINE, State, Step, Stretch, sine};
 use crate::response::Mode;
@@ -71,7 +71,8 @@ impl<'a> PlaneJudge<'a> {
     fn comes_to_rest(&mut self, k: usize, loads: &Loads) {
         let state = self.state(k);
         let acting = self.acting(&state, loads);
-        let (frame, tracked, push) = (self.frame(), self.tracked(), acting.forces.push);
+        let (frame, tracked) = (self.frame(), self.tracked());
+        let push = pair(&acting.forces.push, 0);
         let (p, f) = (norm(push), frame.slowing(loads, 0.0));
         let late = 2.0 * self.instant_s * (p + f);
         if p > f * (1.0 + 1e-9) && self.axes.arrived > late.max(2.0 * REST * self.dips[0].peak()) {
@@ -154,7 +155,7 @@ impl<'a> PlaneJudge<'a> {
         self.held(0, (from_s, step_s), rounding, |judge, t| {
             let rule = judge.axes.stepper.rule;
             if let Some(point) = rule.points.iter().position(|point| *point == t) {
-                return judge.asked(step.push(point), &step.loads[point]).0;
+                return judge.asked(step.push(point), &step.loads(point)).0;
             }
             let state = step.at(rule, t);
             let loads = between(&loads, t);
@@ -162,12 +163,14 @@ impl<'a> PlaneJudge<'a> {
         });
     }
 
-    /// `u·ẇ` at a point of a step of a slip.
-    fn gains(&self, step: &Step, point: usize) -> f64 {
-        let push = step.push(point);
-        let slowing = self.frame().slowing(&step.loads[point], step.speeds[point]);
-        let u = step.heading(self.frame(), point, push);
-        dot(u, self.frame().body.moved([push[0] - slowing * u[0], push[1] - slowing * u[1]]))
+    /// `u·ẇ` at the points of a step of a slip.
+    fn gains(&self, step: &Step) -> [f64; POINTS] {
+        let (frame, slowings) = (self.frame(), step.slowings(self.frame()));
+        let headings = step.headings(frame);
+        core::array::from_fn(|i| {
+            let (u, push) = (pair(&headings, i), step.push(i));
+            dot(u, frame.body.moved([0, 1].map(|k| push[k] - slowings[i] * u[k])))
+        })
     }
 
     /// The state at a part of a step of a slip.
@@ -220,7 +223,7 @@ impl<'a> PlaneJudge<'a> {
     /// Takes the speeds of a step of a slip.
     pub(super) fn slid(&mut self, step: &Step) {
         let rule = self.axes.stepper.rule;
-        let speeds = step.speeds;
+        let (speeds, gains) = (step.speeds, self.gains(step));
         let last = POINTS - 1;
         let least_near = |point: usize| {
             let beside = [point.saturating_sub(1), (point + 1).min(last)];
@@ -241,7 +244,7 @@ impl<'a> PlaneJudge<'a> {
             }
             let [before, at, after] = [point - 1, point, point + 1].map(|i| speeds[i]);
             let (rises, falls) = (before < at && at < after, before > at && at > after);
-            let ends = match self.gains(step, point) {
+            let ends = match gains[point] {
                 gain if rises && gain < 0.0 => [point, point + 1],
                 gain if falls && gain > 0.0 => [point - 1, point],
                 _ => return None,
@@ -252,8 +255,8 @@ impl<'a> PlaneJudge<'a> {
         for (point, at) in rule.points.into_iter().zip(speeds).enumerate() {
             let is_below = |other: usize| speeds[point] < speeds[other];
             let is_least = match point {
-                0 => is_below(1) && self.gains(step, 0) < 0.0,
-                _ if point == last => is_below(last - 1) && self.gains(step, last) > 0.0,
+                0 => is_below(1) && gains[0] < 0.0,
+                _ if point == last => is_below(last - 1) && gains[last] > 0.0,
                 _ => is_below(point - 1) && is_below(point + 1),
             };
             points.push(at);

@@ -42,12 +42,28 @@ pub(super) fn unit(a: Pair) -> Option<Pair> {
     (size > 0.0).then(|| [a[0] / size, a[1] / size])
 }
 
+/// Values at some instants.
+pub(super) type Column<const N: usize> = [f64; N];
+
+/// The vector at one of some instants.
+pub(super) fn pair<const N: usize>(columns: &[Column<N>; 2], at: usize) -> Pair {
+    [columns[0][at], columns[1][at]]
+}
+
 /// What the table does along x and along y at one instant, on one side of it.
 pub(super) type Loads = [Load; 2];
 
-/// `a`.
-pub(super) fn table(loads: &Loads) -> Pair {
-    loads.map(|load| load.a)
+/// `a` and `N` at some instants.
+#[derive(Clone, Copy)]
+pub(super) struct Under<const N: usize> {
+    pub(super) a: [Column<N>; 2],
+    pub(super) normal: Column<N>,
+}
+
+impl Under<1> {
+    pub(super) fn new(loads: &Loads) -> Self {
+        Self { a: loads.map(|load| [load.a]), normal: [loads[0].normal] }
+    }
 }
 
 /// Between two instants.
@@ -55,16 +71,16 @@ pub(super) fn between(loads: &[Loads; 2], part: f64) -> Loads {
     [0, 1].map(|axis| super::super::ground::between([loads[0][axis], loads[1][axis]], part))
 }
 
-/// Forces that a state asks for.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Forces {
+/// Forces that states ask for.
+#[derive(Clone, Copy)]
+pub(super) struct Forces<const N: usize> {
     /// `1ᵀ(K q + C q̇)`.
-    pub(super) base: Pair,
+    pub(super) base: [Column<N>; 2],
     /// `K1 s + N s/R`.
-    pub(super) spring: Pair,
+    pub(super) spring: [Column<N>; 2],
     /// `C1 w`.
-    pub(super) damper: Pair,
-    pub(super) push: Pair,
+    pub(super) damper: [Column<N>; 2],
+    pub(super) push: [Column<N>; 2],
 }
 
 /// Masses, springs, dampers and friction in two horizontal directions.
@@ -225,13 +241,13 @@ impl<'a> PlaneFrame<'a> {
     }
 
     /// `f = μ_k N/M1` at a sliding speed, and its slope.
-    pub(super) fn slowing_and_slope(&self, loads: &Loads, speed: f64) -> [f64; 2] {
-        self.law.kinetic_at(speed).map(|mu| mu * loads[0].normal / self.block_kg)
+    pub(super) fn slowing_and_slope(&self, normal: f64, speed: f64) -> [f64; 2] {
+        self.law.kinetic_at(speed).map(|mu| mu * normal / self.block_kg)
     }
 
     /// `f = μ_k N/M1` at a sliding speed.
     pub(super) fn slowing(&self, loads: &Loads, speed: f64) -> f64 {
-        let [f, _] = self.slowing_and_slope(loads, speed);
+        let [f, _] = self.slowing_and_slope(loads[0].normal, speed);
         f
     }
 
@@ -242,8 +258,8 @@ impl<'a> PlaneFrame<'a> {
         [w, before]: [Pair; 2],
         (time_s, loads, push): (f64, &Loads, Pair),
     ) -> bool {
-        let rounding = 2.0 * f64::EPSILON * time_s * (norm(push) + self.slowing(loads, 0.0));
-        dot(w, before) < 0.0 && norm(w) <= rounding
+        let rounding = || 2.0 * f64::EPSILON * time_s * (norm(push) + self.slowing(loads, 0.0));
+        dot(w, before) < 0.0 && norm(w) <= rounding()
     }
 
     /// Whether there is no friction at any speed.
@@ -257,24 +273,38 @@ impl<'a> PlaneFrame<'a> {
     }
 
     /// `K q + C q̇`, floor by floor, and all that acts on the block.
-    pub(super) fn forces(&self, x: &[f64], v: &[f64], loads: &Loads, floors: &mut [f64]) -> Forces {
-        let mut base = [0.0; 2];
+    #[inline(always)]
+    pub(super) fn forces<const N: usize>(
+        &self,
+        [x, v]: [&[Column<N>]; 2],
+        under: &Under<N>,
+        floors: &mut [Column<N>],
+    ) -> Forces<N> {
+        let mut base = [[0.0; N]; 2];
         for (i, floor) in floors.iter_mut().enumerate() {
-            let (mut elastic, mut viscous) = (0.0, 0.0);
+            let (mut elastic, mut viscous) = ([0.0; N], [0.0; N]);
             for &(j, [k, c]) in &self.links[i] {
-                elastic += k * x[2 + j];
-                viscous += c * v[2 + j];
+                add(&mut elastic, k, &x[2 + j]);
+                add(&mut viscous, c, &v[2 + j]);
             }
-            *floor = elastic + viscous;
-            let [x, y] = times(self.along[i], *floor);
-            base = [base[0] + x, base[1] + y];
+            *floor = elastic;
+            add(floor, 1.0, &viscous);
+            (0..2).for_each(|axis| add(&mut base[axis], self.along[i][axis], floor));
         }
-        let stiffness = self.spring + self.curvature_per_m * loads[0].normal;
-        let [spring, damper] =
-            [[stiffness * x[0], stiffness * x[1]], times([v[0], v[1]], self.damper)];
-        let a = self.body.carried(table(loads));
-        let push = [0, 1].map(|i| (base[i] - spring[i] - damper[i]) / self.block_kg - a[i]);
-        Forces { base, spring, damper, push }
+        let mut forces =
+            Forces { base, spring: [[0.0; N]; 2], damper: [[0.0; N]; 2], push: [[0.0; N]; 2] };
+        for at in 0..N {
+            let stiffness = self.spring + self.curvature_per_m * under.normal[at];
+            let a = self.body.carried(pair(&under.a, at));
+            for axis in 0..2 {
+                let (spring, damper) = (stiffness * x[axis][at], self.damper * v[axis][at]);
+                let push = (base[axis][at] - spring - damper) / self.block_kg - a[axis];
+                forces.spring[axis][at] = spring;
+                forces.damper[axis][at] = damper;
+                forces.push[axis][at] = push;
+            }
+        }
+        forces
     }
 
     /// The largest acceleration that the terms of `K q + C q̇` would give by their sizes, to a floor each and to the block
@@ -293,10 +323,17 @@ impl<'a> PlaneFrame<'a> {
     }
 
     /// `zᵀ K z` or `zᵀ C z`.
-    fn form(&self, of: usize, z: &[f64]) -> f64 {
-        let row =
-            |links: &[(usize, [f64; 2])]| links.iter().map(|(j, kc)| kc[of] * z[*j]).sum::<f64>();
-        self.links.iter().zip(z).map(|(links, own)| own * row(links)).sum()
+    #[inline(always)]
+    fn form<const N: usize>(&self, of: usize, z: &[Column<N>]) -> Column<N> {
+        let mut sum = [0.0; N];
+        for (links, own) in self.links.iter().zip(z) {
+            let mut row = [0.0; N];
+            links.iter().for_each(|(j, kc)| add(&mut row, kc[of], &z[*j]));
+            for at in 0..N {
+                sum[at] += own[at] * row[at];
+            }
+        }
+        sum
     }
 
     /// Accelerations of all degrees, of the block over the table, under a table's acceleration and a force on the block
@@ -307,26 +344,34 @@ impl<'a> PlaneFrame<'a> {
         [a, force]: [Pair; 2],
         slips: bool,
     ) -> Vec<f64> {
-        let loads = a.map(|a| Load { a, ..Load::default() });
-        let mut floors = vec![0.0; self.masses_kg.len()];
-        let push = self.forces(x, v, &loads, &mut floors).push;
+        let mut floors = vec![[0.0]; self.masses_kg.len()];
+        let under = Under { a: a.map(|a| [a]), normal: [0.0] };
+        let states = [x, v].map(|list| list.as_chunks().0);
+        let push = pair(&self.forces(states, &under, &mut floors).push, 0);
         let block = match slips {
             true => self.body.moved([push[0] + force[0], push[1] + force[1]]),
             false => [0.0; 2],
         };
-        let of_part =
-            |i: usize| -floors[i] / self.masses_kg[i] - self.ridden(i, a) - self.ridden(i, block);
+        let of_part = |i: usize| {
+            -floors[i][0] / self.masses_kg[i] - self.ridden(i, a) - self.ridden(i, block)
+        };
         block.into_iter().chain((0..floors.len()).map(of_part)).collect()
     }
 
     /// `C1 w² + q̇ᵀ C q̇`.
-    pub(super) fn dissipation(&self, v: &[f64]) -> f64 {
-        self.damper * (v[0] * v[0] + v[1] * v[1]) + self.form(1, &v[2..])
+    #[inline(always)]
+    pub(super) fn dissipation<const N: usize>(&self, v: &[Column<N>]) -> Column<N> {
+        let mut sum = self.form(1, &v[2..]);
+        for at in 0..N {
+            sum[at] += self.damper * (v[0][at] * v[0][at] + v[1][at] * v[1][at]);
+        }
+        sum
     }
 
     /// `(K1 s² + qᵀ K q)/2`.
     pub(super) fn strain(&self, x: &[f64]) -> f64 {
-        0.5 * (self.spring * (x[0] * x[0] + x[1] * x[1]) + self.form(0, &x[2..]))
+        let [form] = self.form(0, x[2..].as_chunks().0);
+        0.5 * (self.spring * (x[0] * x[0] + x[1] * x[1]) + form)
     }
 
     /// `(M1 w² + Σ m_i (w + q̇_i)²)/2`.
@@ -341,19 +386,29 @@ impl<'a> PlaneFrame<'a> {
     }
 
     /// `M1 w + Σ m_i (w + q̇_i)`.
-    pub(super) fn momentum(&self, v: &[f64]) -> Pair {
-        let mut sum = [self.total_kg * v[0], self.total_kg * v[1]];
-        for (i, (mass, own)) in self.masses_kg.iter().zip(&v[2..]).enumerate() {
-            let [x, y] = times(self.along[i], mass * own);
-            sum = [sum[0] + x, sum[1] + y];
-        }
-        sum
+    #[inline(always)]
+    pub(super) fn momentum<const N: usize>(&self, v: &[Column<N>]) -> [Column<N>; 2] {
+        [0, 1].map(|axis| {
+            let mut sum = v[axis].map(|w| self.total_kg * w);
+            for (i, mass) in self.masses_kg.iter().enumerate() {
+                add(&mut sum, mass * self.along[i][axis], &v[2 + i]);
+            }
+            sum
+        })
     }
 
     /// The least mass of the block and the floors.
     pub(super) fn least_kg(&self) -> f64 {
         let block_kg = self.block_kg / self.body.most_compliant();
         self.masses_kg.iter().fold(block_kg, |least, mass| mass.min(least))
+    }
+}
+
+/// Adds a multiple of a column.
+#[inline(always)]
+pub(super) fn add<const N: usize>(to: &mut Column<N>, factor: f64, column: &Column<N>) {
+    for (to, from) in to.iter_mut().zip(column) {
+        *to += factor * from;
     }
 }
 

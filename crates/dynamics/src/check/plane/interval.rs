@@ -3,8 +3,9 @@
 use super::super::collocation::POINTS;
 use super::super::structure::{excess, larger};
 use super::decisions::is_straight;
-use super::frame::{Loads, Pair, dot, norm, table, unit};
+use super::frame::{Loads, Pair, dot, norm, pair, unit};
 use super::judge::{Place, PlaneJudge};
+use super::peaks::Acting;
 use super::step::{FINE, State, Step, Stretch, time_to_rest};
 use crate::error::Stopped;
 use crate::response::Mode;
@@ -227,7 +228,7 @@ impl<'a> PlaneJudge<'a> {
         stretch: &Stretch,
         (t, left_s): (f64, f64),
         mut step_s: f64,
-    ) -> Result<Option<Step>, Stopped> {
+    ) -> Result<Option<Box<Step>>, Stopped> {
         // No sliver is left.
         if step_s > 0.9 * left_s && self.axes.stepper.parts(left_s, true) == 1.0 {
             step_s = left_s;
@@ -236,7 +237,7 @@ impl<'a> PlaneJudge<'a> {
             self.pulse.beat(256 + 64 * self.frame().degrees() as u32)?;
             let step = self.axes.stepper.solve(&path.state, stretch.part(t, step_s), true);
             let fine = |step: &Step| step.tail <= TAIL && step.defect() <= self.bearable();
-            if let Some(step) = step.filter(fine) {
+            if let Some(step) = step.filter(|step| fine(step)) {
                 return Ok(Some(step));
             }
             step_s *= 0.5;
@@ -333,28 +334,26 @@ impl<'a> PlaneJudge<'a> {
         let Stretch { from_s, step_s, .. } = step.stretch;
         let follows = self.law.follows();
         let (mut done, mut size, mut damping, mut friction) = (0.0, 0.0, 0.0, 0.0);
-        for point in 0..POINTS {
-            let [x, v] = step.at_point(point);
-            for (fastest, v) in path.fastest.iter_mut().zip(v) {
-                *fastest = fastest.max(v.abs());
-            }
-            step.raise_rates(frame, point, &mut path.rates);
-            if point == 0 || point + 1 == POINTS {
-                continue;
-            }
-            let weight = step_s * rule.weights[point - 1];
-            let loads = &step.loads[point];
-            let power = dot(frame.momentum(v), table(loads));
-            let r = step.speeds[point];
+        let Acting { under, .. } = &step.acting;
+        let (x, v, slowings) = (step.acting.x(), step.acting.v(), step.slowings(frame));
+        for (fastest, v) in path.fastest.iter_mut().zip(v) {
+            *fastest = v.iter().fold(*fastest, |fastest, v| fastest.max(v.abs()));
+        }
+        step.raise_rates(frame, &slowings, &mut path.rates);
+        let (momentum, dissipation) = (frame.momentum(v), frame.dissipation(v));
+        for (node, weight) in rule.weights.iter().enumerate() {
+            let (point, weight) = (1 + node, step_s * weight);
+            let power = dot(pair(&momentum, point), pair(&under.a, point));
             done -= weight * power;
             size += weight * power.abs();
-            damping += weight * frame.dissipation(v);
+            damping += weight * dissipation[point];
             if step.slips {
-                friction += weight * frame.block_kg * frame.slowing(loads, r) * r;
+                friction += weight * frame.block_kg * slowings[point] * step.speeds[point];
             }
             if follows {
-                let rise = frame.curvature_per_m * loads[0].normal;
-                let back = -weight * rise * dot([x[0], x[1]], step.speed(point));
+                let rise = frame.curvature_per_m * under.normal[point];
+                let s = [x[0][point], x[1][point]];
+                let back = -weight * rise * dot(s, step.speed(point));
                 friction -= back;
                 size += back.max(0.0);
             }
@@ -384,13 +383,13 @@ impl<'a> PlaneJudge<'a> {
 
     /// Whether a step is near rest in a slip that was straight when it came there.
     fn is_straight_near_rest(&mut self, step: &Step) -> bool {
-        let is_near = step.slips && step.quickest() < NEAR_REST * self.dips[0].peak();
+        let is_near = step.slips && step.quickest < NEAR_REST * self.dips[0].peak();
         if self.axes.line.is_some() || !is_near {
             self.axes.near_rest = None;
             return false;
         }
         if self.axes.near_rest.is_none() {
-            let slowing = self.frame().slowing(&step.loads[0], step.speeds[0]);
+            let slowing = self.frame().slowing(&step.stretch.loads[0], step.speeds[0]);
             self.axes.near_rest = Some(self.is_straight(step.speed(0), step.push(0), slowing));
         }
         self.axes.near_rest == Some(true)

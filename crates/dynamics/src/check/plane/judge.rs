@@ -7,7 +7,7 @@ use super::super::judge::{Directions, Judge, JudgeInput, Run, Sizes};
 use super::super::law::StickDemand;
 use super::super::structure::{excess, larger};
 use super::super::{ClosestCall, DecisionKind};
-use super::frame::{Forces, Loads, Pair, PlaneFrame, norm, unit};
+use super::frame::{Forces, Loads, Pair, PlaneFrame, Under, norm, pair, unit};
 use super::peaks::{Acting, Peaks, Tracked};
 use super::step::{State, Stepper};
 use super::{Lists, lists};
@@ -94,7 +94,7 @@ impl<'a> PlaneJudge<'a> {
             lists: lists(given.history, along_y),
             stepper: Stepper::new(frame, given.motion.dt_s(), end_s),
             ground_y,
-            peaks: Peaks::new(&Tracked { frame, outputs: given.outputs, line: None }),
+            peaks: Peaks::new(given.outputs),
             event_directions: Vec::new(),
             minima: Minima::default(),
             least_speed: None,
@@ -114,7 +114,8 @@ impl<'a> PlaneJudge<'a> {
     }
 
     pub(super) fn tracked(&self) -> Tracked<'a> {
-        Tracked { frame: self.frame(), outputs: self.outputs, line: self.axes.line }
+        let Plane { stepper: Stepper { frame, instructions, .. }, line, .. } = self.axes;
+        Tracked { frame, outputs: self.outputs, instructions, line }
     }
 
     /// The mode at a knot.
@@ -166,13 +167,14 @@ impl<'a> PlaneJudge<'a> {
     }
 
     /// All that acts in a state.
-    pub(super) fn acting<'s>(&self, state: &'s State, loads: &Loads) -> Acting<'s> {
-        Acting::new(self.frame(), state, loads)
+    pub(super) fn acting(&self, state: &State, loads: &Loads) -> Acting<1> {
+        let values = state.x.iter().chain(&state.v);
+        Acting::new(self.frame(), values.map(|value| [*value]).collect(), Under::new(loads))
     }
 
     /// The push on the block in a state.
     pub(super) fn push(&self, state: &State, loads: &Loads) -> Pair {
-        self.acting(state, loads).forces.push
+        pair(&self.acting(state, loads).forces.push, 0)
     }
 
     /// Compares what is stored at a knot with the loads on one side of it: the accelerations of the table, the
@@ -182,6 +184,8 @@ impl<'a> PlaneJudge<'a> {
         let (h, y, frame) = (self.h, self.axes.along_y, self.frame());
         let state = self.state(k);
         let Acting { forces, floors, .. } = self.acting(&state, loads);
+        let Forces { base, spring, damper, push } = &forces;
+        let [base, spring, damper, push] = [base, spring, damper, push].map(|of| pair(of, 0));
         let at = |x: &[f64], y: &[f64], i: usize| [x[i], y[i]];
         let own = at(&h.table_acceleration_m_per_s2, &y.table_acceleration_m_per_s2, k);
         let block = at(&h.block_acceleration_m_per_s2, &y.block_acceleration_m_per_s2, k);
@@ -199,7 +203,7 @@ impl<'a> PlaneJudge<'a> {
             side.defect = norm(split);
         } else {
             let slid = frame.block_kg * frame.slowing(loads, norm(state.speed()));
-            let departs = || frame.body.departure(forces.push, frame.slowing(loads, 0.0));
+            let departs = || frame.body.departure(push, frame.slowing(loads, 0.0));
             let at_rest = (place == Place::Start).then(departs).flatten();
             let off = match unit(state.speed()).or(at_rest) {
                 Some(u) => norm([0, 1].map(|i| friction[i] + slid * u[i])),
@@ -207,7 +211,6 @@ impl<'a> PlaneJudge<'a> {
             };
             side.excess = excess(off - frame.most * normal_n);
         }
-        let Forces { base, spring, damper, .. } = forces;
         let inertia = frame.inertia(block);
         let balance = [0, 1].map(|i| inertia[i] - base[i] + spring[i] + damper[i] - friction[i]);
         side.defect = larger(side.defect, excess(norm(balance) - follows_n));
@@ -222,7 +225,7 @@ impl<'a> PlaneJudge<'a> {
                 None => lists[i % 2][k * n + i / 2],
             };
             let inertia = mass * own;
-            side.defect = larger(side.defect, inertia + force);
+            side.defect = larger(side.defect, inertia + force[0]);
             side.term = larger(side.term, inertia);
         }
         side
@@ -337,7 +340,7 @@ impl Directions for PlaneJudge<'_> {
             let slips = self.mode(k) != Mode::Stick;
             let departs = || {
                 let frame = self.frame();
-                frame.body.departure(acting.forces.push, frame.slowing(&loads, 0.0))
+                frame.body.departure(pair(&acting.forces.push, 0), frame.slowing(&loads, 0.0))
             };
             let direction = unit(state.speed()).or_else(departs).filter(|_| slips);
             self.axes.peaks.see(&self.tracked(), &acting, direction);

@@ -16,12 +16,12 @@
 //! which a step of at most a radian ends at rounding after [`TERMS`] terms. The same sums of unit vectors are the maps
 //! of a step that comes again and again.
 
-use super::super::collocation::{NODES, Rule};
-use super::frame::{Loads, Pair, PlaneFrame};
+use super::super::collocation::{NODES, POINTS, Rule};
+use super::frame::{Column, Loads, Pair, PlaneFrame, add};
 use std::sync::LazyLock;
 
-/// Where a step ends up: its nodes, and its end.
-pub(super) const TARGETS: usize = NODES + 1;
+/// Values at the points of a step.
+type Points = Column<POINTS>;
 /// Most radians of a step: what is linear is exact, the polynomials through the points of a radian are off by 5e-13.
 const MOST_RADIANS: f64 = 1.0;
 /// Most terms of a sum over a radian: the next is below rounding of what matrices that are not normal make of it.
@@ -29,15 +29,14 @@ const TERMS: usize = 24;
 /// Parts of a range over which Lagrange's polynomials are integrated, by Gauss's rule in each.
 const PANELS: usize = 4;
 
-/// `(I^{l+1} L_k)(c)` at the targets.
-type Integrals = [[[f64; NODES]; TARGETS]; TERMS];
+/// `(I^{l+1} L_k)(c)` at the points, of each order and node.
+type Integrals = [[Points; NODES]; TERMS];
 
 fn integrals() -> &'static Integrals {
     static INTEGRALS: LazyLock<Box<Integrals>> = LazyLock::new(|| {
         let rule = Rule::get();
-        let mut all = Box::new([[[0.0; NODES]; TARGETS]; TERMS]);
-        for p in 0..TARGETS {
-            let c = rule.points[1 + p];
+        let mut all = Box::new([[[0.0; POINTS]; NODES]; TERMS]);
+        for (p, c) in rule.points.into_iter().enumerate() {
             for panel in 0..PANELS {
                 for (node, weight) in rule.c.iter().zip(&rule.weights) {
                     let t = c * (panel as f64 + node) / PANELS as f64;
@@ -45,8 +44,8 @@ fn integrals() -> &'static Integrals {
                     // (c − t)^l/l!
                     let mut kernel = c * weight / PANELS as f64;
                     for (l, of_order) in all.iter_mut().enumerate() {
-                        for (sum, value) in of_order[p].iter_mut().zip(values) {
-                            *sum += kernel * value;
+                        for (of_node, value) in of_order.iter_mut().zip(values) {
+                            of_node[p] += kernel * value;
                         }
                         kernel *= (c - t) / (l + 1) as f64;
                     }
@@ -114,38 +113,49 @@ impl Group {
         }
     }
 
-    /// `Σ_l τ^l/l! g_l`.
-    fn sum(&self, derivatives: &[f64], tau: f64, to: &mut [f64]) {
-        let m = self.size();
-        to.fill(0.0);
-        let mut power = 1.0;
-        for (l, g) in derivatives.chunks_exact(m).enumerate() {
+    /// `Σ_l (c h)^l/l! g_l` at the points, row by row.
+    #[inline(always)]
+    fn sum(&self, derivatives: &[f64], step_s: f64, mut row: impl FnMut(usize, Points)) {
+        let (m, points) = (self.size(), Rule::get().points);
+        let (mut powers, mut power) = ([[0.0; POINTS]; TERMS], [1.0; POINTS]);
+        for (l, of_order) in powers[..derivatives.len() / m].iter_mut().enumerate() {
             if l > 0 {
-                power *= tau / l as f64;
+                power = core::array::from_fn(|p| power[p] * (points[p] * step_s / l as f64));
             }
-            for (to, g) in to.iter_mut().zip(g) {
-                *to += power * g;
+            *of_order = power;
+        }
+        for i in 0..m {
+            let mut sum = [0.0; POINTS];
+            for (g, power) in derivatives.chunks_exact(m).zip(&powers) {
+                add(&mut sum, g[i], power);
             }
+            row(i, sum);
         }
     }
 
-    /// Hands on what forces at the nodes of a step add to each row of `y` at a target, term by term:
+    /// What forces at the nodes of a step add at the points, row by row of `y`:
     /// `Σ_k Σ_l h^{l+1} (I^{l+1} L_k)(c) A^l B φ_k`.
+    #[inline(always)]
     fn forced(
         &self,
         forces: &[[f64; NODES]; 2],
         (step_s, terms): (f64, usize),
-        target: usize,
-        mut add: impl FnMut(usize, f64),
+        mut row: impl FnMut(usize, Points),
     ) {
         for (axis, powers) in self.axes.iter().zip(&self.of_force) {
-            let mut power = step_s;
-            for (of_order, of_force) in integrals()[..terms].iter().zip(powers) {
-                let moment = product(&of_order[target], &forces[*axis]);
-                for (row, of_force) in of_force.iter().enumerate() {
-                    add(row, power * moment * of_force);
+            let (mut moments, mut power) = ([[0.0; POINTS]; TERMS], step_s);
+            for (of_order, moment) in integrals()[..terms].iter().zip(&mut moments) {
+                for (of_node, force) in of_order.iter().zip(&forces[*axis]) {
+                    add(moment, power * force, of_node);
                 }
                 power *= step_s;
+            }
+            for i in 0..self.size() {
+                let mut sum = [0.0; POINTS];
+                for (moment, of_force) in moments[..terms].iter().zip(powers) {
+                    add(&mut sum, of_force[i], moment);
+                }
+                row(i, sum);
             }
         }
     }
@@ -160,7 +170,7 @@ impl Group {
 }
 
 /// What forces at the nodes do to `w` and `s` at the nodes: along axis `a` at node `j` of one along `b` at node `k`
-/// at `[a][b][j][k]`.
+/// at `[a][b][k][j]`.
 pub(super) struct Influence {
     pub(super) of_w: Blocks,
     pub(super) of_s: Blocks,
@@ -172,11 +182,11 @@ pub(super) type Blocks = [[[[f64; NODES]; NODES]; 2]; 2];
 /// The maps of a step of one length.
 struct Maps {
     step_s: f64,
-    /// Group by group, target by target, row by row of `y`: factors of `y` at the start, then of the table's
+    /// Group by group, row by row of `y`, at the points: factors of `y` at the start, then of the table's
     /// accelerations along the axes, then of their slopes.
-    free: Vec<Vec<f64>>,
-    /// Target by target, row by row: factors of the forces, node by node for each axis.
-    forced: Vec<Vec<f64>>,
+    free: Vec<Vec<Points>>,
+    /// Row by row, at the points: factors of the forces, node by node for each axis.
+    forced: Vec<Vec<Points>>,
     influence: Box<Influence>,
 }
 
@@ -263,8 +273,8 @@ impl Linear {
         for group in &self.groups {
             let (m, axes) = (group.size(), group.axes.len());
             let width = m + 2 * axes;
-            let mut free = vec![0.0; TARGETS * m * width];
-            let (mut derivatives, mut y) = (Vec::new(), vec![0.0; m]);
+            let mut free = vec![[0.0; POINTS]; m * width];
+            let mut derivatives = Vec::new();
             for column in 0..width {
                 let mut start = vec![0.0; m];
                 let mut loads = [[0.0; 2]; 2];
@@ -273,23 +283,16 @@ impl Linear {
                     Some(load) => loads[load / axes][group.axes[load % axes]] = 1.0,
                 }
                 group.derivatives(&start, loads, terms, &mut derivatives);
-                for target in 0..TARGETS {
-                    group.sum(&derivatives, Rule::get().points[1 + target] * step_s, &mut y);
-                    for (row, value) in y.iter().enumerate() {
-                        free[(target * m + row) * width + column] = *value;
-                    }
-                }
+                group.sum(&derivatives, step_s, |row, of| free[row * width + column] = of);
             }
             let columns = NODES * group.of_force.len();
-            let mut forced = vec![0.0; TARGETS * m * columns];
+            let mut forced = vec![[0.0; POINTS]; m * columns];
             for column in 0..columns {
                 let mut forces = [[0.0; NODES]; 2];
                 forces[group.axes[column / NODES]][column % NODES] = 1.0;
-                for target in 0..TARGETS {
-                    group.forced(&forces, (step_s, terms), target, |row, value| {
-                        forced[(target * m + row) * columns + column] += value;
-                    });
-                }
+                group.forced(&forces, (step_s, terms), |row, of| {
+                    add(&mut forced[row * columns + column], 1.0, &of);
+                });
             }
             maps.free.push(free);
             maps.forced.push(forced);
@@ -307,66 +310,61 @@ impl Linear {
         libm::ceil(self.rate * length_s / MOST_RADIANS * (1.0 - 1e-9)).max(1.0)
     }
 
-    /// The motion at the targets of a step without force: `x` and `v` one after the other, target by target.
+    /// The motion at the points of a step without force: `x` and `v` one after the other.
+    #[inline(always)]
     pub(super) fn free(
         &self,
         [x, v]: [&[f64]; 2],
         loads: &[Loads; 2],
         (step_s, instant_s): (f64, f64),
-        states: &mut [f64],
+        states: &mut [Points],
     ) {
         let (d, loads) = (x.len(), of_table(loads, step_s));
         let maps = self.maps(step_s, instant_s);
         let terms = terms(self.rate * step_s);
-        let (mut derivatives, mut end, mut start) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut derivatives, mut start) = (Vec::new(), Vec::new());
         for (g, group) in self.groups.iter().enumerate() {
-            let m = group.size();
             start.clear();
             start.extend(group.degrees.iter().map(|k| x[*k]));
             start.extend(group.degrees.iter().map(|k| v[*k]));
             if let Some(maps) = maps {
                 loads.iter().for_each(|load| start.extend(group.axes.iter().map(|k| load[*k])));
-                let rows = maps.free[g].chunks_exact(start.len());
-                for (i, row) in rows.enumerate() {
-                    states[i / m * 2 * d + group.place(i % m, d)] = product(row, &start);
+                for (i, row) in maps.free[g].chunks_exact(start.len()).enumerate() {
+                    states[group.place(i, d)] = combined(row, &start);
                 }
                 continue;
             }
             group.derivatives(&start, loads, terms, &mut derivatives);
-            end.resize(m, 0.0);
-            for target in 0..TARGETS {
-                group.sum(&derivatives, Rule::get().points[1 + target] * step_s, &mut end);
-                for (row, value) in end.iter().enumerate() {
-                    states[target * 2 * d + group.place(row, d)] = *value;
-                }
-            }
+            group.sum(&derivatives, step_s, |row, of| states[group.place(row, d)] = of);
         }
     }
 
     /// Adds what forces at the nodes do.
+    #[inline(always)]
     pub(super) fn add_forced(
         &self,
         forces: &[[f64; NODES]; 2],
         (step_s, instant_s): (f64, f64),
-        states: &mut [f64],
+        states: &mut [Points],
     ) {
-        let d = states.len() / (2 * TARGETS);
+        let d = states.len() / 2;
         let maps = self.maps(step_s, instant_s);
         let terms = terms(self.rate * step_s);
         for (g, group) in self.groups.iter().enumerate() {
-            let m = group.size();
             if let Some(maps) = maps {
-                let all: Vec<f64> = group.axes.iter().flat_map(|axis| forces[*axis]).collect();
+                let mut all = [0.0; 2 * NODES];
+                for (all, axis) in all.chunks_exact_mut(NODES).zip(&group.axes) {
+                    all.copy_from_slice(&forces[*axis]);
+                }
+                let all = &all[..NODES * group.axes.len()];
                 for (i, row) in maps.forced[g].chunks_exact(all.len()).enumerate() {
-                    states[i / m * 2 * d + group.place(i % m, d)] += product(row, &all);
+                    add(&mut states[group.place(i, d)], 1.0, &combined(row, all));
                 }
                 continue;
             }
-            for target in 0..TARGETS {
-                group.forced(forces, (step_s, terms), target, |row, value| {
-                    states[target * 2 * d + group.place(row, d)] += value;
-                });
-            }
+            group.forced(forces, (step_s, terms), |row, of| {
+                add(&mut states[group.place(row, d)], 1.0, &of);
+            });
         }
     }
 
@@ -383,8 +381,8 @@ impl Linear {
                     let of_w = &mut all.of_w[*along][*by];
                     let mut power = step_s;
                     for (of_order, of_force) in integrals()[..terms].iter().zip(powers) {
-                        add(of_s, power * of_force[place], of_order);
-                        add(of_w, power * of_force[n + place], of_order);
+                        add_at_nodes(of_s, power * of_force[place], of_order);
+                        add_at_nodes(of_w, power * of_force[n + place], of_order);
                         power *= step_s;
                     }
                 }
@@ -407,26 +405,23 @@ impl Linear {
 }
 
 /// Adds a multiple of integrals, at the nodes.
-fn add(to: &mut [[f64; NODES]; NODES], factor: f64, integrals: &[[f64; NODES]; TARGETS]) {
+#[inline(always)]
+fn add_at_nodes(to: &mut [[f64; NODES]; NODES], factor: f64, integrals: &[Points; NODES]) {
     if factor != 0.0 {
         for (to, from) in to.iter_mut().zip(integrals) {
-            to.iter_mut().zip(from).for_each(|(to, from)| *to += factor * from);
+            to.iter_mut().zip(&from[1..]).for_each(|(to, from)| *to += factor * from);
         }
     }
 }
 
-/// `Σ a_i b_i`, in four sums.
-fn product(a: &[f64], b: &[f64]) -> f64 {
-    let (fours, rest) = a.as_chunks::<4>();
-    let (of_b, rest_of_b) = b.as_chunks::<4>();
-    let mut sums = [0.0; 4];
-    for (a, b) in fours.iter().zip(of_b) {
-        for i in 0..4 {
-            sums[i] += a[i] * b[i];
-        }
+/// `Σ a_i b_i`, of columns.
+#[inline(always)]
+fn combined(columns: &[Points], factors: &[f64]) -> Points {
+    let mut sum = [0.0; POINTS];
+    for (column, factor) in columns.iter().zip(factors) {
+        add(&mut sum, *factor, column);
     }
-    let rest: f64 = rest.iter().zip(rest_of_b).map(|(a, b)| a * b).sum();
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+    sum
 }
 
 #[cfg(test)]
@@ -483,29 +478,32 @@ mod tests {
             let (x, v) = (numbers(d), numbers(2 * d)[d..].to_vec());
             let forces = [0, 1].map(|i| core::array::from_fn(|k| libm::cos((3 * k + i) as f64)));
             let ends = [&sums, &kept].map(|linear| {
-                let mut states = vec![0.0; 2 * d * TARGETS];
+                let mut states = vec![[0.0; POINTS]; 2 * d];
                 linear.free([&x, &v], &loads(), length, &mut states);
                 if slips {
                     linear.add_forced(&forces, length, &mut states);
                 }
                 states
             });
-            let largest = ends[0].iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-            for (a, b) in ends[0].iter().zip(&ends[1]) {
+            let largest = ends[0].iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
+            for (a, b) in ends[0].iter().flatten().zip(ends[1].iter().flatten()) {
                 assert!((a - b).abs() <= 1e-14 * largest, "{a} {b}");
             }
             if slips {
                 // The block's part at the nodes is what the influence of the forces says.
-                let mut states = vec![0.0; 2 * d * TARGETS];
+                let mut states = vec![[0.0; POINTS]; 2 * d];
                 kept.add_forced(&forces, length, &mut states);
                 kept.with_influence(length, |influence| {
                     for (j, a) in (0..NODES).flat_map(|j| [(j, 0), (j, 1)]) {
                         let sum = |blocks: &Blocks| -> f64 {
-                            (0..2).map(|b| product(&blocks[a][b][j], &forces[b])).sum()
+                            let of = |b: usize| {
+                                (0..NODES).map(move |k| blocks[a][b][k][j] * forces[b][k])
+                            };
+                            (0..2).flat_map(of).sum()
                         };
                         let [s, w] = [sum(&influence.of_s), sum(&influence.of_w)];
-                        assert!((s - states[2 * d * j + a]).abs() <= 1e-15 * largest);
-                        assert!((w - states[2 * d * j + d + a]).abs() <= 1e-15 * largest);
+                        assert!((s - states[a][1 + j]).abs() <= 1e-15 * largest);
+                        assert!((w - states[d + a][1 + j]).abs() <= 1e-15 * largest);
                     }
                 });
             }
@@ -521,7 +519,7 @@ mod tests {
         let linear = Linear::new(&frame, false);
         let step_s = 1.0 / linear.rate;
         let (x, v) = ([0.0, 0.0, 0.01, -0.02], [0.0, 0.0, 0.3, 0.1]);
-        let mut states = vec![0.0; 2 * 4 * TARGETS];
+        let mut states = vec![[0.0; POINTS]; 2 * 4];
         linear.free([&x, &v], &loads(), (step_s, 0.0), &mut states);
         let of = [(3e5_f64, 0.02), (1.3 * 3e5, 0.03)];
         for (axis, (stiffness, ratio)) in of.into_iter().enumerate() {
@@ -534,11 +532,11 @@ mod tests {
             let damped = omega * libm::sqrt(1.0 - ratio * ratio);
             let a = x[2 + axis] - c;
             let b = (v[2 + axis] - m + ratio * omega * a) / damped;
-            for target in 0..TARGETS {
-                let t = Rule::get().points[1 + target] * step_s;
+            for point in 0..POINTS {
+                let t = Rule::get().points[point] * step_s;
                 let wave = a * libm::cos(damped * t) + b * libm::sin(damped * t);
                 let q = c + m * t + libm::exp(-ratio * omega * t) * wave;
-                let found = states[8 * target + 2 + axis];
+                let found = states[2 + axis][point];
                 assert!((found - q).abs() < 1e-16, "{found} {q}");
             }
         }

@@ -6,10 +6,11 @@ use super::super::collocation::{POINTS, Rule};
 use super::super::outputs::{Outputs, raise, raise_size};
 use super::super::structure::larger;
 use super::body::PointOfModes;
-use super::frame::{Forces, Loads, Pair, PlaneFrame, cross, dot, norm, table, times, unit};
-use super::step::{State, Step};
+use super::frame::{Column, Forces, Pair, PlaneFrame, Under, cross, dot, norm, pair, times, unit};
+use super::step::Step;
+use crate::numerics::InstructionSet;
+use crate::numerics::instructions::vectorize;
 use crate::response::output::{BLOCK, FRICTION, OVERTURNING, Output, SLIDER};
-use std::borrow::Cow;
 
 /// The outputs that the direction of friction decides.
 const BY_DIRECTION: [usize; 4] = [BLOCK, SLIDER, FRICTION, OVERTURNING];
@@ -21,43 +22,73 @@ fn sizes(vector: Pair) -> [f64; 3] {
     [norm(vector), vector[0].abs(), vector[1].abs()]
 }
 
-/// What moves and acts at an instant.
-pub(super) struct Acting<'a> {
-    pub(super) x: &'a [f64],
-    pub(super) v: &'a [f64],
-    pub(super) loads: Loads,
-    pub(super) forces: Forces,
-    pub(super) floors: Cow<'a, [f64]>,
+/// What moves and acts at some instants.
+pub(super) struct Acting<const N: usize> {
+    /// `x` and `v` one after the other.
+    states: Vec<Column<N>>,
+    pub(super) under: Under<N>,
+    pub(super) forces: Forces<N>,
+    /// `K q + C q̇`.
+    pub(super) floors: Vec<Column<N>>,
 }
 
-impl<'a> Acting<'a> {
-    pub(super) fn new(frame: &PlaneFrame<'_>, state: &'a State, loads: &Loads) -> Self {
-        let mut floors = vec![0.0; frame.masses_kg.len()];
-        let forces = frame.forces(&state.x, &state.v, loads, &mut floors);
-        Self { x: &state.x, v: &state.v, loads: *loads, forces, floors: Cow::Owned(floors) }
+impl<const N: usize> Acting<N> {
+    #[inline(always)]
+    pub(super) fn new(frame: &PlaneFrame<'_>, states: Vec<Column<N>>, under: Under<N>) -> Self {
+        let mut floors = vec![[0.0; N]; frame.masses_kg.len()];
+        let (x, v) = states.split_at(states.len() / 2);
+        let forces = frame.forces([x, v], &under, &mut floors);
+        Self { states, under, forces, floors }
     }
 
-    /// `w`.
-    fn speed(&self) -> Pair {
-        [self.v[0], self.v[1]]
+    pub(super) fn x(&self) -> &[Column<N>] {
+        &self.states[..self.states.len() / 2]
     }
 
-    /// `ẇ + a`, `T` and `T − K1 s − N s/R − C1 w`, with the direction of a slip.
-    fn on_block(&self, frame: &PlaneFrame<'_>, direction: Option<Pair>) -> [Pair; 3] {
-        let (a, Forces { push, spring, damper, .. }) = (table(&self.loads), self.forces);
-        let (block, friction) = match direction {
-            None => (a, times(push, -frame.block_kg)),
-            Some(u) => {
-                let slowed = times(u, frame.slowing(&self.loads, norm(self.speed())));
-                let moved = frame.body.moved([push[0] - slowed[0], push[1] - slowed[1]]);
-                let block = match frame.body.is_one() {
-                    true => [0, 1].map(|i| push[i] + a[i] - slowed[i]),
-                    false => [moved[0] + a[0], moved[1] + a[1]],
-                };
-                (block, times(slowed, -frame.block_kg))
-            }
+    pub(super) fn v(&self) -> &[Column<N>] {
+        &self.states[self.states.len() / 2..]
+    }
+
+    /// `ẇ + a`, `T` and `T − K1 s − N s/R − C1 w`, with the directions of a slip.
+    #[inline(always)]
+    fn on_block(
+        &self,
+        frame: &PlaneFrame<'_>,
+        along: Option<&[Column<N>; 2]>,
+    ) -> [[Column<N>; 2]; 3] {
+        let (a, push) = (&self.under.a, &self.forces.push);
+        let Some(along) = along else {
+            let friction = push.map(|push| push.map(|p| -frame.block_kg * p));
+            return [*a, self.on_slider(&friction), friction];
         };
-        [block, [0, 1].map(|i| friction[i] - spring[i] - damper[i]), friction]
+        let w = self.v();
+        let (mut block, mut friction) = ([[0.0; N]; 2], [[0.0; N]; 2]);
+        for i in 0..N {
+            let speed = norm([w[0][i], w[1][i]]);
+            let [f, _] = frame.slowing_and_slope(self.under.normal[i], speed);
+            let slowed = times(pair(along, i), f);
+            let [p, a] = [push, a].map(|columns| pair(columns, i));
+            let whole = match frame.body.is_one() {
+                true => [0, 1].map(|k| p[k] + a[k] - slowed[k]),
+                false => {
+                    let moved = frame.body.moved([p[0] - slowed[0], p[1] - slowed[1]]);
+                    [moved[0] + a[0], moved[1] + a[1]]
+                }
+            };
+            for axis in 0..2 {
+                block[axis][i] = whole[axis];
+                friction[axis][i] = -frame.block_kg * slowed[axis];
+            }
+        }
+        [block, self.on_slider(&friction), friction]
+    }
+
+    #[inline(always)]
+    fn on_slider(&self, friction: &[Column<N>; 2]) -> [Column<N>; 2] {
+        let Forces { spring, damper, .. } = &self.forces;
+        [0, 1].map(|axis| {
+            core::array::from_fn(|i| friction[axis][i] - spring[axis][i] - damper[axis][i])
+        })
     }
 }
 
@@ -65,6 +96,7 @@ impl<'a> Acting<'a> {
 pub(super) struct Tracked<'a> {
     pub(super) frame: &'a PlaneFrame<'a>,
     pub(super) outputs: &'a Outputs,
+    pub(super) instructions: InstructionSet,
     /// The direction of the one line on which all moves, if it does.
     pub(super) line: Option<Pair>,
 }
@@ -74,41 +106,50 @@ impl Tracked<'_> {
         self.outputs.len() + 1
     }
 
-    /// In a slip in a direction, or in stick.
-    fn vectors(&self, acting: &Acting<'_>, direction: Option<Pair>, out: &mut Vec<Pair>) {
-        let (frame, Acting { x, v, .. }) = (self.frame, acting);
+    /// In a slip in directions, or in stick.
+    #[inline(always)]
+    fn vectors<const N: usize>(
+        &self,
+        acting: &Acting<N>,
+        directions: Option<[Column<N>; 2]>,
+        out: &mut Vec<[Column<N>; 2]>,
+    ) {
+        let (frame, x, v) = (self.frame, acting.x(), acting.v());
         out.clear();
-        out.resize(self.len(), [0.0; 2]);
+        out.resize(self.len(), [[0.0; N]; 2]);
         // On a line friction is along it, whatever rounding makes of a velocity near rest.
-        let on_line = |u: Pair| self.line.map_or(u, |line| times(line, dot(u, line).signum()));
-        let [block, slider, friction] = acting.on_block(frame, direction.map(on_line));
-        let of_part = |j: usize| -acting.floors[j] / frame.masses_kg[j];
-        let by_modes = frame.points.as_ref().map(|points| {
-            let of = |point: &PointOfModes| {
-                [point.vector(|j| x[2 + j], [0.0; 2]), point.vector(of_part, block)]
-            };
-            points.iter().map(of).collect::<Vec<[Pair; 2]>>()
+        let directions = directions.map(|mut along| {
+            for (i, line) in self.line.iter().flat_map(|line| (0..N).map(move |i| (i, line))) {
+                let own = times(*line, dot(pair(&along, i), *line).signum());
+                (0..2).for_each(|axis| along[axis][i] = own[axis]);
+            }
+            along
         });
-        for axis in 0..2 {
-            self.outputs.each(
-                [v[axis], slider[axis], friction[axis], acting.forces.base[axis], 0.0],
-                (0.0, block[axis]),
-                |i| match &by_modes {
-                    Some(points) => points[i].map(|vector| vector[axis]),
-                    None => [x[2 + 2 * i + axis], of_part(2 * i + axis)],
-                },
-                |_| [0.0; 2],
-                |g, value| out[g][axis] = value,
-            );
+        let [block, slider, friction] = acting.on_block(frame, directions.as_ref());
+        let of_part = |part: usize, i: usize| -acting.floors[part][i] / frame.masses_kg[part];
+        for i in 0..N {
+            let by_modes = frame.points.as_ref().map(|points| {
+                let of = |point: &PointOfModes| {
+                    let total = point.vector(|j| of_part(j, i), pair(&block, i));
+                    [point.vector(|j| x[2 + j][i], [0.0; 2]), total]
+                };
+                points.iter().map(of).collect::<Vec<[Pair; 2]>>()
+            });
+            for axis in 0..2 {
+                let base = acting.forces.base[axis][i];
+                self.outputs.each(
+                    [v[axis][i], slider[axis][i], friction[axis][i], base, 0.0],
+                    (0.0, block[axis][i]),
+                    |point| match &by_modes {
+                        Some(points) => points[point].map(|vector| vector[axis]),
+                        None => [x[2 + 2 * point + axis][i], of_part(2 * point + axis, i)],
+                    },
+                    |_| [0.0; 2],
+                    |g, value| out[g][axis][i] = value,
+                );
+            }
         }
         out[self.outputs.len()] = [x[0], x[1]];
-    }
-
-    /// Vectors at a point of a step.
-    fn at_point(&self, step: &Step, point: usize, out: &mut Vec<Pair>) {
-        let acting = step.acting(point);
-        let heading = || step.heading(self.frame, point, acting.forces.push);
-        self.vectors(&acting, step.slips.then(heading), out);
     }
 }
 
@@ -121,32 +162,32 @@ pub(super) struct Peaks {
     /// Largest `s` towards the four sides.
     pub(super) sides_m: [f64; 4],
     /// Room for vectors at the points of a step.
-    at: [Vec<Pair>; POINTS],
+    at: Vec<[Column<POINTS>; 2]>,
 }
 
 impl Peaks {
-    pub(super) fn new(tracked: &Tracked<'_>) -> Self {
-        let zeros = || core::array::from_fn(|_| vec![0.0; tracked.len()]);
-        let at = core::array::from_fn(|_| Vec::new());
-        Self { largest: zeros(), possible: zeros(), sides_m: [f64::NEG_INFINITY; 4], at }
+    pub(super) fn new(outputs: &Outputs) -> Self {
+        let zeros = || core::array::from_fn(|_| vec![0.0; outputs.len() + 1]);
+        let (sides_m, at) = ([f64::NEG_INFINITY; 4], Vec::new());
+        Self { largest: zeros(), possible: zeros(), sides_m, at }
     }
 
     /// Raises the peaks by what is seen at an instant, in a slip in a direction or in stick.
     pub(super) fn see(
         &mut self,
         tracked: &Tracked<'_>,
-        acting: &Acting<'_>,
+        acting: &Acting<1>,
         direction: Option<Pair>,
     ) {
         let mut vectors = Vec::new();
-        tracked.vectors(acting, direction, &mut vectors);
+        tracked.vectors(acting, direction.map(|u| u.map(|u| [u])), &mut vectors);
         for (g, vector) in vectors.iter().enumerate() {
-            for (view, size) in sizes(*vector).into_iter().enumerate() {
+            for (view, size) in sizes(pair(vector, 0)).into_iter().enumerate() {
                 let peak = &mut self.largest[view][g];
                 *peak = larger(*peak, size);
             }
         }
-        let s = [acting.x[0], acting.x[1]];
+        let s = [0, 1].map(|axis| acting.x()[axis][0]);
         for (most, side) in self.sides_m.iter_mut().zip(SIDES) {
             *most = most.max(dot(s, side));
         }
@@ -157,7 +198,7 @@ impl Peaks {
     pub(super) fn turn(
         &mut self,
         tracked: &Tracked<'_>,
-        acting: &Acting<'_>,
+        acting: &Acting<1>,
         arc: Option<[Pair; 2]>,
         certain: bool,
     ) {
@@ -165,7 +206,9 @@ impl Peaks {
             self.turn_of_body(tracked, acting, arc, certain);
             return;
         }
-        let (a, Forces { push, spring, damper, .. }) = (table(&acting.loads), acting.forces);
+        let Forces { push, spring, damper, .. } = &acting.forces;
+        let [push, spring, damper, a] =
+            [push, spring, damper, &acting.under.a].map(|columns| pair(columns, 0));
         let block = unit([-(push[0] + a[0]), -(push[1] + a[1])]);
         let slider = unit([0, 1].map(|i| spring[i] + damper[i]));
         let inside = |u: &Pair| {
@@ -181,9 +224,9 @@ impl Peaks {
         let mut vectors = Vec::new();
         let to = if certain { &mut self.largest } else { &mut self.possible };
         for u in turns.chain(arc.into_iter().flatten()) {
-            tracked.vectors(acting, Some(u), &mut vectors);
+            tracked.vectors(acting, Some(u.map(|u| [u])), &mut vectors);
             for g in BY_DIRECTION {
-                for (view, size) in sizes(vectors[g]).into_iter().enumerate() {
+                for (view, size) in sizes(pair(&vectors[g], 0)).into_iter().enumerate() {
                     to[view][g] = larger(to[view][g], size);
                 }
             }
@@ -195,7 +238,7 @@ impl Peaks {
     fn turn_of_body(
         &mut self,
         tracked: &Tracked<'_>,
-        acting: &Acting<'_>,
+        acting: &Acting<1>,
         arc: Option<[Pair; 2]>,
         certain: bool,
     ) {
@@ -204,9 +247,9 @@ impl Peaks {
         let (first, turn) = arc.map_or((0.0, full), |[from, to]| {
             (libm::atan2(from[1], from[0]), libm::atan2(cross(from, to), dot(from, to)))
         });
-        let at = |part: f64, out: &mut Vec<Pair>| {
+        let at = |part: f64, out: &mut Vec<[Column<1>; 2]>| {
             let angle = first + part * turn;
-            tracked.vectors(acting, Some([libm::cos(angle), libm::sin(angle)]), out);
+            tracked.vectors(acting, Some([[libm::cos(angle)], [libm::sin(angle)]]), out);
         };
         let mut all = vec![Vec::new(); LOOKS + 1];
         for (i, vectors) in all.iter_mut().enumerate() {
@@ -217,7 +260,7 @@ impl Peaks {
         let mut vectors = Vec::new();
         for g in BY_DIRECTION.into_iter().chain((0..n).map(|i| Output::Acceleration(i).place(n))) {
             for view in 0..3 {
-                let size = |i: usize| sizes(all[i][g])[view];
+                let size = |i: usize| sizes(pair(&all[i][g], 0))[view];
                 let best =
                     (1..=LOOKS).fold(0, |best, i| if size(i) > size(best) { i } else { best });
                 let mut most = size(best);
@@ -227,7 +270,7 @@ impl Peaks {
                     let [a, b] = [0.4, 0.6].map(|part| low + (high - low) * part);
                     let [of_a, of_b] = [a, b].map(|part| {
                         at(part, &mut vectors);
-                        sizes(vectors[g])[view]
+                        sizes(pair(&vectors[g], 0))[view]
                     });
                     most = most.max(of_a).max(of_b);
                     if of_a > of_b { high = b } else { low = a }
@@ -245,10 +288,20 @@ impl Peaks {
         step: &Step,
         coarse: bool,
     ) -> bool {
+        vectorize!(tracked.instructions, _simd => self.follow_here(rule, tracked, step, coarse))
+    }
+
+    #[inline(always)]
+    fn follow_here(
+        &mut self,
+        rule: &Rule,
+        tracked: &Tracked<'_>,
+        step: &Step,
+        coarse: bool,
+    ) -> bool {
         let mut at = core::mem::take(&mut self.at);
-        for (point, vectors) in at.iter_mut().enumerate() {
-            tracked.at_point(step, point, vectors);
-        }
+        let headings = step.slips.then(|| step.headings(tracked.frame));
+        tracked.vectors(&step.acting, headings, &mut at);
         let tells = self.raise(rule, tracked, &at, coarse);
         self.at = at;
         tells
@@ -256,10 +309,11 @@ impl Peaks {
 
     /// Whether what [`raise`] and [`raise_size`] take for possible between values at the points is below the peaks,
     /// whichever these values are.
-    fn is_below(&self, g: usize, at: &[Vec<Pair>; POINTS]) -> bool {
+    #[inline(always)]
+    fn is_below(&self, g: usize, vector: &[Column<POINTS>; 2]) -> bool {
         let (mut square, mut most, mut sum) = (0.0_f64, [0.0_f64; 2], 0.0);
-        for vectors in at {
-            let [x, y] = vectors[g];
+        for i in 0..POINTS {
+            let [x, y] = pair(vector, i);
             square = square.max(x * x + y * y);
             most = [most[0].max(x.abs()), most[1].max(y.abs())];
             sum += x + y;
@@ -273,22 +327,21 @@ impl Peaks {
     }
 
     /// The same by the vectors at the points.
+    #[inline(always)]
     fn raise(
         &mut self,
         rule: &Rule,
         tracked: &Tracked<'_>,
-        at: &[Vec<Pair>; POINTS],
+        at: &[[Column<POINTS>; 2]],
         coarse: bool,
     ) -> bool {
-        for g in 0..tracked.len() {
+        for (g, parts) in at.iter().enumerate() {
             let is_place = g + 1 == tracked.len();
-            if !is_place && self.is_below(g, at) {
+            if !is_place && self.is_below(g, parts) {
                 continue;
             }
-            let parts: [[f64; POINTS]; 2] =
-                [0, 1].map(|axis| core::array::from_fn(|i| at[i][g][axis]));
             let part = |axis: usize, t: f64| rule.interpolate(&parts[axis], t);
-            let norms: [f64; POINTS] = core::array::from_fn(|i| norm(at[i][g]));
+            let norms: [f64; POINTS] = core::array::from_fn(|i| norm(pair(parts, i)));
             let [whole, along_x, along_y] = &mut self.largest;
             let tells =
                 raise(rule, &mut whole[g], &norms, coarse, |t| norm([part(0, t), part(1, t)]))

@@ -17,11 +17,12 @@
 
 use super::super::collocation::{NODES, POINTS, Rule, legendre};
 use super::frame::{
-    Forces, Loads, Pair, PlaneFrame, between, cross, dot, norm, table, times, unit,
+    Column, Loads, Pair, PlaneFrame, Under, add, between, cross, dot, norm, pair, times, unit,
 };
 use super::maps::{Blocks, Influence, Linear};
 use super::peaks::Acting;
-use std::borrow::Cow;
+use crate::numerics::InstructionSet;
+use crate::numerics::instructions::vectorize;
 use std::sync::LazyLock;
 
 /// A velocity below this part of the largest in a step has no direction; nor has one at its ends, where it is what a stop
@@ -78,22 +79,16 @@ impl Stretch {
     }
 }
 
-/// The motion in a step: its states at the points of the rule, polynomials between them, and what acts there.
+/// The motion in a step: what moves and acts at the points of the rule, polynomials between them.
 pub(super) struct Step {
     pub(super) stretch: Stretch,
     pub(super) slips: bool,
-    degrees: usize,
-    /// `x` and `v` one after the other, point by point.
-    states: Vec<f64>,
-    /// `w` along x and along y, and its size.
-    w: [[f64; POINTS]; 2],
+    pub(super) acting: Acting<POINTS>,
+    /// The size of `w`, and the largest.
     pub(super) speeds: [f64; POINTS],
+    pub(super) quickest: f64,
     /// Directions of a slip at both ends by the polynomial of the force, if there is one.
     ends: [Option<Pair>; 2],
-    pub(super) loads: [Loads; POINTS],
-    forces: [Forces; POINTS],
-    /// `K q + C q̇`, point by point.
-    floors: Vec<f64>,
     /// Largest of the last Legendre coefficients of the slider's force over its largest value.
     pub(super) tail: f64,
     /// Largest force of the slider over the mass of the block.
@@ -101,24 +96,11 @@ pub(super) struct Step {
 }
 
 impl Step {
-    /// `x` and `v` at a point.
-    pub(super) fn at_point(&self, point: usize) -> [&[f64]; 2] {
-        let (x, v) =
-            self.states[2 * self.degrees * point..][..2 * self.degrees].split_at(self.degrees);
-        [x, v]
-    }
-
     /// The state at a point.
     pub(super) fn state(&self, point: usize) -> State {
-        let [x, v] = self.at_point(point).map(<[f64]>::to_vec);
+        let [x, v] = [self.acting.x(), self.acting.v()]
+            .map(|list| list.iter().map(|column| column[point]).collect());
         State { x, v }
-    }
-
-    /// All that acts at a point.
-    pub(super) fn acting(&self, point: usize) -> Acting<'_> {
-        let ([x, v], n) = (self.at_point(point), self.degrees - 2);
-        let floors = Cow::Borrowed(&self.floors[n * point..][..n]);
-        Acting { x, v, loads: self.loads[point], forces: self.forces[point], floors }
     }
 
     /// The state at a part of the step.
@@ -127,32 +109,45 @@ impl Step {
             return self.state(point);
         }
         let shares = rule.shares(part);
-        let mut all = vec![0.0; 2 * self.degrees];
-        for (state, share) in self.states.chunks_exact(all.len()).zip(shares) {
-            all.iter_mut().zip(state).for_each(|(sum, value)| *sum += share * value);
-        }
-        let v = all.split_off(self.degrees);
-        State { x: all, v }
+        let of = |column: &Column<POINTS>| shares.iter().zip(column).map(|(s, x)| s * x).sum();
+        let [x, v] = [self.acting.x(), self.acting.v()].map(|list| list.iter().map(of).collect());
+        State { x, v }
     }
 
     /// `w` at a part of the step.
     pub(super) fn speed_at(&self, rule: &Rule, part: f64) -> Pair {
-        self.w.each_ref().map(|w| rule.interpolate(w, part))
+        [0, 1].map(|axis| rule.interpolate(&self.acting.v()[axis], part))
     }
 
     /// `w` at a point.
     pub(super) fn speed(&self, point: usize) -> Pair {
-        [self.w[0][point], self.w[1][point]]
+        [0, 1].map(|axis| self.acting.v()[axis][point])
     }
 
     /// The push at a point.
     pub(super) fn push(&self, point: usize) -> Pair {
-        self.forces[point].push
+        pair(&self.acting.forces.push, point)
     }
 
-    /// The largest speed at its points.
-    pub(super) fn quickest(&self) -> f64 {
-        self.speeds.iter().fold(0.0, |most: f64, speed| most.max(*speed))
+    /// Loads at a point.
+    pub(super) fn loads(&self, point: usize) -> Loads {
+        between(&self.stretch.loads, Rule::get().points[point])
+    }
+
+    /// Directions of a slip at the points.
+    pub(super) fn headings(&self, frame: &PlaneFrame<'_>) -> [Column<POINTS>; 2] {
+        let mut headings = [[0.0; POINTS]; 2];
+        for point in 0..POINTS {
+            let along = self.heading(frame, point, self.push(point));
+            (0..2).for_each(|axis| headings[axis][point] = along[axis]);
+        }
+        headings
+    }
+
+    /// `f` at the points.
+    pub(super) fn slowings(&self, frame: &PlaneFrame<'_>) -> [f64; POINTS] {
+        let normal = &self.acting.under.normal;
+        core::array::from_fn(|i| frame.slowing_and_slope(normal[i], self.speeds[i])[0])
     }
 
     /// The direction of a slip at a point under a push. At rest, in which a slip begins and ends along the push,
@@ -163,7 +158,7 @@ impl Step {
         let beside = self.speed(if point == 0 { 1 } else { point - 1 });
         let under = (from_s + step_s, &loads[0], push);
         let is_end = point == 0 || point + 1 == POINTS;
-        let faintest = ROUNDING[usize::from(is_end)] * self.quickest();
+        let faintest = ROUNDING[usize::from(is_end)] * self.quickest;
         if self.speeds[point] > faintest && !frame.has_turned_about([w, beside], under) {
             return times(w, 1.0 / self.speeds[point]);
         }
@@ -219,25 +214,36 @@ impl Step {
         self.stretch.step_s * sum
     }
 
-    /// Raises the largest rate of each velocity by those at a point: what acts on a block that rests or slides.
-    pub(super) fn raise_rates(&self, frame: &PlaneFrame<'_>, point: usize, most: &mut [f64]) {
-        let Acting { loads, forces, floors, .. } = self.acting(point);
-        let a = table(&loads);
-        let mut block = [0.0; 2];
+    /// Raises the largest rate of each velocity by those at the points: what acts on a block that rests or slides.
+    #[inline(always)]
+    pub(super) fn raise_rates(
+        &self,
+        frame: &PlaneFrame<'_>,
+        slowings: &[f64; POINTS],
+        most: &mut [f64],
+    ) {
+        let Acting { under, forces, floors, .. } = &self.acting;
+        let (mut carried, w) = (under.a, self.acting.v());
         if self.slips {
-            let f = frame.slowing(&loads, self.speeds[point]);
-            let u = unit(self.speed(point)).unwrap_or_default();
-            block = frame.body.moved([0, 1].map(|i| forces.push[i] - f * u[i]));
+            let mut moved = [[0.0; POINTS]; 2];
+            for i in 0..POINTS {
+                let slowed = if self.speeds[i] > 0.0 { slowings[i] / self.speeds[i] } else { 0.0 };
+                let of = |axis: usize| forces.push[axis][i] - slowed * w[axis][i];
+                let block = frame.body.moved([of(0), of(1)]);
+                (0..2).for_each(|axis| moved[axis][i] = block[axis]);
+            }
+            for axis in 0..2 {
+                most[axis] = moved[axis].iter().fold(most[axis], |most, rate| most.max(rate.abs()));
+                add(&mut carried[axis], 1.0, &moved[axis]);
+            }
         }
-        for (i, most) in most.iter_mut().enumerate() {
-            let rate = match i.checked_sub(2) {
-                None => block[i],
-                Some(part) => {
-                    let carried = [a[0] + block[0], a[1] + block[1]];
-                    -floors[part] / frame.masses_kg[part] - frame.ridden(part, carried)
-                }
-            };
-            *most = most.max(rate.abs());
+        for (part, most) in most[2..].iter_mut().enumerate() {
+            let [x, y] = frame.along[part];
+            let per_kg = 1.0 / frame.masses_kg[part];
+            for i in 0..POINTS {
+                let rate = floors[part][i] * per_kg + (x * carried[0][i] + y * carried[1][i]);
+                *most = most.max(rate.abs());
+            }
         }
     }
 
@@ -261,6 +267,7 @@ pub(super) struct Stepper<'a> {
     linear: [Linear; 2],
     /// Within which a length is that of another step.
     instant_s: f64,
+    pub(super) instructions: InstructionSet,
 }
 
 impl<'a> Stepper<'a> {
@@ -272,7 +279,8 @@ impl<'a> Stepper<'a> {
                 linear.keep(sample_s / linear.parts(sample_s));
             }
         }
-        Self { frame, rule: Rule::get(), linear, instant_s: 4.0 * f64::EPSILON * end_s }
+        let instant_s = 4.0 * f64::EPSILON * end_s;
+        Self { frame, rule: Rule::get(), linear, instant_s, instructions: InstructionSet::best() }
     }
 
     /// In how many parts a stretch is gone through in which nothing but what is linear bounds them.
@@ -282,32 +290,35 @@ impl<'a> Stepper<'a> {
 
     /// A step from a state; `None` where the iteration does not settle. A slip that starts from rest follows
     /// the push: `None` where that does not exceed friction.
-    pub(super) fn solve(&self, from: &State, stretch: Stretch, slips: bool) -> Option<Step> {
+    pub(super) fn solve(&self, from: &State, stretch: Stretch, slips: bool) -> Option<Box<Step>> {
         let (frame, d) = (self.frame, self.frame.degrees());
         let linear = &self.linear[usize::from(slips)];
         let length = (stretch.step_s, self.instant_s);
-        let mut states = vec![0.0; 2 * d * POINTS];
-        states[..d].copy_from_slice(&from.x);
-        states[d..2 * d].copy_from_slice(&from.v);
-        let targets = &mut states[2 * d..];
-        linear.free([&from.x, &from.v], &stretch.loads, length, targets);
+        let mut states = vec![[0.0; POINTS]; 2 * d];
+        vectorize!(self.instructions, _simd => {
+            linear.free([&from.x, &from.v], &stretch.loads, length, &mut states);
+        });
         let mut forces = [[0.0; NODES]; 2];
         let is_forced =
             frame.curvature_per_m > 0.0 || stretch.loads.iter().any(|loads| !frame.is_free(loads));
         if slips && is_forced {
             forces = self.guess(from, stretch)?;
-            let of = |place: usize| core::array::from_fn(|j| targets[2 * d * j + place]);
+            let of = |place: usize| core::array::from_fn(|j| states[place][1 + j]);
             let free = [[of(0), of(1)], [of(d), of(d + 1)]];
             let size = frame.largest_terms(&from.x, &from.v);
             let settled = linear.with_influence(length, |influence| {
-                self.settle(&free, (stretch, size), influence, &mut forces)
+                vectorize!(self.instructions, _simd => {
+                    self.settle(&free, (stretch, size), influence, &mut forces)
+                })
             });
             if !settled {
                 return None;
             }
-            linear.add_forced(&forces, length, targets);
+            vectorize!(self.instructions, _simd => {
+                linear.add_forced(&forces, length, &mut states);
+            });
         }
-        Some(self.step(stretch, slips, states, &forces))
+        Some(vectorize!(self.instructions, _simd => self.step(stretch, slips, states, &forces)))
     }
 
     /// The state at a part of a step, by a step that ends there: an end is known better than what lies between
@@ -329,7 +340,7 @@ impl<'a> Stepper<'a> {
         let frame = self.frame;
         let under = |i: usize| between(&stretch.loads, self.rule.c[i]);
         let force = |loads: &Loads, u: Pair, speed: f64, s: Pair| {
-            let (f, kappa) = (frame.slowing(loads, speed), self.stiffness(loads));
+            let (f, kappa) = (frame.slowing(loads, speed), self.stiffness(loads[0].normal));
             [0, 1].map(|i| -f * u[i] - kappa * s[i])
         };
         let s = [from.x[0], from.x[1]];
@@ -343,19 +354,34 @@ impl<'a> Stepper<'a> {
         let step = self.solve(from, stretch, false)?;
         let (mut all, mut leaves) = ([[0.0; 2]; NODES], false);
         for (i, to) in all.iter_mut().enumerate() {
-            let (push, slowing) = (step.push(1 + i), frame.slowing(&step.loads[1 + i], 0.0));
+            let (push, loads) = (step.push(1 + i), step.loads(1 + i));
+            let slowing = frame.slowing(&loads, 0.0);
             leaves |= norm(push) > slowing;
-            *to = force(&step.loads[1 + i], frame.body.departure(push, slowing)?, 0.0, s);
+            *to = force(&loads, frame.body.departure(push, slowing)?, 0.0, s);
         }
         leaves.then(|| by_axis(|i| all[i]))
     }
 
     /// Of the spring that follows `N`, over the mass of the block.
-    fn stiffness(&self, loads: &Loads) -> f64 {
-        self.frame.curvature_per_m * loads[0].normal / self.frame.block_kg
+    fn stiffness(&self, normal: f64) -> f64 {
+        self.frame.curvature_per_m * normal / self.frame.block_kg
+    }
+
+    /// `a` and `N` at the points of a stretch.
+    #[inline(always)]
+    fn under(&self, stretch: &Stretch) -> Under<POINTS> {
+        let column = |of: &dyn Fn(&Loads) -> f64| {
+            let [from, to] = stretch.loads.each_ref().map(of);
+            self.rule.points.map(|t| from + (to - from) * t)
+        };
+        Under {
+            a: [column(&|loads| loads[0].a), column(&|loads| loads[1].a)],
+            normal: column(&|loads| loads[0].normal),
+        }
     }
 
     /// Iterates forces at the nodes from what `s` and `w` are there without them. Whether they settle.
+    #[inline(always)]
     fn settle(
         &self,
         free: &[[[f64; NODES]; 2]; 2],
@@ -364,9 +390,8 @@ impl<'a> Stepper<'a> {
         forces: &mut [[f64; NODES]; 2],
     ) -> bool {
         let frame = self.frame;
-        let loads: [Loads; NODES] =
-            core::array::from_fn(|i| between(&stretch.loads, self.rule.c[i]));
-        let kappa = loads.each_ref().map(|loads| self.stiffness(loads));
+        let under = self.under(&stretch);
+        let kappa: [f64; NODES] = core::array::from_fn(|i| self.stiffness(under.normal[1 + i]));
         let follows = frame.curvature_per_m > 0.0;
         let (mut last, mut newton) = (f64::INFINITY, None);
         for pass in 0..MOST_PASSES {
@@ -377,7 +402,7 @@ impl<'a> Stepper<'a> {
             for j in 0..NODES {
                 let w = [w[0][j], w[1][j]];
                 let r = norm(w);
-                let [f, slope] = frame.slowing_and_slope(&loads[j], r);
+                let [f, slope] = frame.slowing_and_slope(under.normal[1 + j], r);
                 let mut force = [-kappa[j] * s[0][j], -kappa[j] * s[1][j]];
                 bends[j].1 = kappa[j];
                 if f > 0.0 && r > 0.0 {
@@ -392,8 +417,13 @@ impl<'a> Stepper<'a> {
                 (0..2).for_each(|axis| off[2 * j + axis] = force[axis] - forces[axis][j]);
             }
             // A matrix is kept as long as a pass gains two digits by it.
-            let kept = newton.take().or_else(|| Newton::new(influence, &bends));
-            let Some(kept) = kept else { return false };
+            let kept = match newton.take() {
+                Some(kept) => kept,
+                None => match Newton::new(influence, &bends) {
+                    Some(new) => new,
+                    None => return false,
+                },
+            };
             let steps = kept.solve(off);
             for (i, step) in steps.iter().enumerate() {
                 change = change.max(step.abs());
@@ -415,51 +445,31 @@ impl<'a> Stepper<'a> {
     }
 
     /// The motion with forces at the nodes, and what acts at its points.
+    #[inline(always)]
     fn step(
         &self,
         stretch: Stretch,
         slips: bool,
-        states: Vec<f64>,
+        states: Vec<Column<POINTS>>,
         forces: &[[f64; NODES]; 2],
-    ) -> Step {
-        let (frame, d) = (self.frame, self.frame.degrees());
-        let mut floors = vec![0.0; POINTS * (d - 2)];
-        let at = |point: usize| states[2 * d * point..][..2 * d].split_at(d);
-        let loads = self.rule.points.map(|point| between(&stretch.loads, point));
-        let mut acting = [Forces::default(); POINTS];
-        for (point, acting) in acting.iter_mut().enumerate() {
-            let (x, v) = at(point);
-            let floors = &mut floors[(d - 2) * point..][..d - 2];
-            *acting = frame.forces(x, v, &loads[point], floors);
-        }
-        let w = [0, 1].map(|axis| core::array::from_fn(|point| at(point).1[axis]));
-        let speeds: [f64; POINTS] = core::array::from_fn(|point| norm([w[0][point], w[1][point]]));
+    ) -> Box<Step> {
+        let acting = Acting::new(self.frame, states, self.under(&stretch));
+        let w = acting.v();
+        let speeds: [f64; POINTS] = core::array::from_fn(|i| norm([w[0][i], w[1][i]]));
         let [x, y] = forces;
         let sharpest = x.iter().zip(y).map(|(x, y)| norm([*x, *y])).fold(0.0, f64::max);
         let ends = [0, POINTS - 1].map(|point| {
-            let (kappa, x) = (self.stiffness(&loads[point]), at(point).0);
+            let kappa = self.stiffness(acting.under.normal[point]);
             let of = |axis: usize| extrapolated(&forces[axis], usize::from(point > 0));
-            unit([0, 1].map(|axis| -of(axis) - kappa * x[axis]))
+            unit([0, 1].map(|axis| -of(axis) - kappa * acting.x()[axis][point]))
         });
         let mut tail = 0.0;
         if sharpest > 0.0 {
             let last = forces.each_ref().map(last_coefficients);
             tail = last.into_iter().flatten().fold(0.0, f64::max) / sharpest;
         }
-        Step {
-            stretch,
-            slips,
-            degrees: d,
-            w,
-            speeds,
-            ends,
-            states,
-            loads,
-            forces: acting,
-            floors,
-            tail,
-            sharpest,
-        }
+        let quickest = speeds.iter().fold(0.0, |most: f64, speed| most.max(*speed));
+        Box::new(Step { stretch, slips, acting, speeds, quickest, ends, tail, sharpest })
     }
 }
 
@@ -470,12 +480,14 @@ fn by_axis(of: impl Fn(usize) -> Pair) -> [[f64; NODES]; 2] {
 }
 
 /// What moves without forces, and with them.
+#[inline(always)]
 fn moved(by: &Blocks, free: &[[f64; NODES]; 2], forces: &[[f64; NODES]; 2]) -> [[f64; NODES]; 2] {
     [0, 1].map(|a| {
-        core::array::from_fn(|j| {
-            let of = |b: usize| by[a][b][j].iter().zip(&forces[b]).map(|(g, f)| g * f).sum::<f64>();
-            free[a][j] + (of(0) + of(1))
-        })
+        let mut sum = [0.0; NODES];
+        for (of_axis, forces) in by[a].iter().zip(forces) {
+            of_axis.iter().zip(forces).for_each(|(column, force)| add(&mut sum, *force, column));
+        }
+        core::array::from_fn(|j| free[a][j] + sum[j])
     })
 }
 
@@ -506,17 +518,18 @@ struct Newton {
 
 impl Newton {
     /// Of how friction bends at each node, and of the spring that follows `N`; `None` where it is singular.
+    #[inline(always)]
     fn new(influence: &Influence, bends: &[([[f64; 2]; 2], f64); NODES]) -> Option<Self> {
         let mut rows = [[0.0; UNKNOWNS]; UNKNOWNS];
         for (j, (bend, stiffness)) in bends.iter().enumerate() {
             for axis in 0..2 {
                 let row = &mut rows[2 * j + axis];
-                let [x, y] = influence.of_w.each_ref().map(|of| of.each_ref().map(|of| of[j]));
+                let [x, y] = &influence.of_w;
                 for i in 0..UNKNOWNS {
                     let (by, k) = (i % 2, i / 2);
-                    row[i] = bend[axis][0] * x[by][k] + bend[axis][1] * y[by][k];
+                    row[i] = bend[axis][0] * x[by][k][j] + bend[axis][1] * y[by][k][j];
                     if *stiffness != 0.0 {
-                        row[i] += stiffness * influence.of_s[axis][by][j][k];
+                        row[i] += stiffness * influence.of_s[axis][by][k][j];
                     }
                 }
                 row[2 * j + axis] += 1.0;
@@ -548,6 +561,7 @@ impl Newton {
     }
 
     /// What takes away what is off.
+    #[inline(always)]
     fn solve(&self, mut off: [f64; UNKNOWNS]) -> [f64; UNKNOWNS] {
         for (column, pivot) in self.pivots.iter().enumerate() {
             off.swap(column, *pivot);
