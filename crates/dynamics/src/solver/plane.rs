@@ -103,6 +103,7 @@ impl<'a> Plane<'a> {
         let mut scales = Scales::default();
         scales.note(&state);
         let modes = system.modes();
+        let again_s = ground.sampling.dt_s.map(|dt_s| system.within_reach(dt_s));
         Self {
             ground,
             table_y,
@@ -115,7 +116,7 @@ impl<'a> Plane<'a> {
             near_s: f64::INFINITY,
             is_near_rest: false,
             series: Series::new(&system, instructions),
-            influence: Influence::new(instructions),
+            influence: Influence::new(instructions, again_s),
             force: Force::new(),
             scales,
             peaks: Peaks::new(&system, state.s),

@@ -14,7 +14,7 @@ use super::series::{Kind, Series};
 use super::system::{Loads, State, System};
 use super::terms::Scales;
 use super::vector::{cross, inner, norm};
-use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, value};
+use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, derivative, value};
 use crate::numerics::InstructionSet;
 use crate::numerics::instructions::vectorize;
 use crate::slider::Kinetic;
@@ -47,12 +47,19 @@ pub(super) struct Influence {
     of: [[Square; 2]; 2],
     /// Whether axes feel each other.
     crosses: bool,
+    /// The length of the step that comes again and again, if there is one, and of that the velocities at the nodes without
+    /// friction: of a unit of each part of the state, of the table and of its rate.
+    again_s: Option<f64>,
+    free: Vec<[AtNodes; 2]>,
 }
 
 impl Influence {
-    pub(super) fn new(instructions: InstructionSet) -> Self {
+    /// With the length of the step that comes again and again.
+    pub(super) fn new(instructions: InstructionSet, again_s: Option<f64>) -> Self {
         Self {
             instructions,
+            again_s,
+            free: Vec::new(),
             pushed: [[ZERO; 2]; 2],
             unit_s: 0.0,
             pressed_n_per_m: None,
@@ -73,11 +80,77 @@ impl Influence {
         if self.pressed_n_per_m != Some(pressed_n_per_m) {
             self.push(system, loads, series);
             (self.pressed_n_per_m, self.step_s) = (Some(pressed_n_per_m), 0.0);
+            self.free.clear();
         }
         if (step_s - self.step_s).abs() > SAME * step_s {
             self.step_s = step_s;
             vectorize!(self.instructions, _simd => self.integrate(nodes()));
         }
+    }
+
+    /// Velocities at the nodes without friction over a step that comes again and again, and is none of a pendulum under a
+    /// vertical motion; a series to work with.
+    pub(super) fn free(
+        &mut self,
+        system: &System,
+        (state, loads): (&State, &Loads),
+        step_s: f64,
+        series: &mut Series,
+    ) -> Option<[AtNodes; 2]> {
+        let again_s = self.again_s.filter(|own_s| (own_s - step_s).abs() <= SAME * step_s)?;
+        let pressed_n_per_m = loads.normal[0] * system.per_radius;
+        if self.pressed_n_per_m != Some(pressed_n_per_m)
+            || loads.normal[1] * system.per_radius != 0.0
+        {
+            return None;
+        }
+        if self.free.is_empty() && !self.follow_units(system, loads.normal[0], again_s, series) {
+            self.again_s = None;
+            return None;
+        }
+        let [x, y] = loads.table;
+        let mut free = [[0.0; NODES]; 2];
+        vectorize!(self.instructions, _simd => {
+            let table = [[x[0], y[0]], [x[1], y[1]]];
+            let parts = state.s.iter().chain(&state.w).chain(&state.eta).chain(&state.rate);
+            for (part, of) in parts.chain(table.iter().flatten()).zip(&self.free) {
+                for axis in 0..2 {
+                    for j in 0..NODES {
+                        free[axis][j] += part * of[axis][j];
+                    }
+                }
+            }
+        });
+        Some(free)
+    }
+
+    /// Follows a unit of each part of a state, of the table and of its rate; whether series take the step.
+    fn follow_units(
+        &mut self,
+        system: &System,
+        normal_n: f64,
+        step_s: f64,
+        series: &mut Series,
+    ) -> bool {
+        let modes = system.modes();
+        let scales = Scales { w: 1.0, ..Scales::default() };
+        for i in 0..4 + 2 * modes + 4 {
+            let is = |place: usize| if place == i { 1.0 } else { 0.0 };
+            let list = |from: usize| (from..from + modes).map(is).collect();
+            let state =
+                State { s: [is(0), is(1)], w: [is(2), is(3)], eta: list(4), rate: list(4 + modes) };
+            let [a, rate] = [0, 2].map(|from| [0, 1].map(|axis| is(4 + 2 * modes + from + axis)));
+            let table = [[a[0], rate[0]], [a[1], rate[1]]];
+            let loads = Loads { table, normal: [normal_n, 0.0] };
+            series.expand(system, (Kind::Frictionless, &state), (loads, step_s), &scales);
+            if !(series.part >= 1.0) {
+                self.free.clear();
+                return false;
+            }
+            let at_nodes = |w: &Polynomial| nodes().at.map(|x| value(w, x));
+            self.free.push(series.w.each_ref().map(at_nodes));
+        }
+        true
     }
 
     /// Follows a push along each axis.
@@ -142,6 +215,12 @@ pub(super) struct Force {
     /// `w` without friction, and `N` at the nodes.
     pub(super) free: [AtNodes; 2],
     normal_n: AtNodes,
+    /// `w` without friction from the start of the step on, by powers of the time over a unit, how far that is exact, and
+    /// the part of it that is a step.
+    series: [Polynomial; 2],
+    unit_s: f64,
+    reach_s: f64,
+    part: f64,
 }
 
 impl Force {
@@ -154,18 +233,39 @@ impl Force {
             sizes: none,
             free: [none; 2],
             normal_n: none,
+            series: [ZERO; 2],
+            unit_s: 1.0,
+            reach_s: 0.0,
+            part: 1.0,
         }
     }
 
-    /// Without friction, from a series without.
-    pub(super) fn free_of(&mut self, series: &Series) {
-        let [normal_n, rate] = series.loads.normal;
-        for (j, x) in nodes().at.iter().enumerate() {
-            for axis in 0..2 {
-                self.free[axis][j] = value(&series.w[axis], *x);
-            }
-            self.normal_n[j] = (normal_n + rate * (series.unit * x)).max(0.0);
-        }
+    /// Another step begins: what is known of the motion without friction is of the last.
+    pub(super) fn forget(&mut self) {
+        self.reach_s = 0.0;
+    }
+
+    /// Whether the motion without friction is known so far.
+    pub(super) fn reaches(&self, step_s: f64) -> bool {
+        step_s <= self.reach_s
+    }
+
+    /// Keeps the motion without friction.
+    pub(super) fn keep(&mut self, series: &Series) {
+        (self.series, self.unit_s) = (series.w, series.unit);
+        self.reach_s = if series.part > 0.0 { series.part * series.unit } else { 0.0 };
+    }
+
+    /// `N` over a step.
+    pub(super) fn press(&mut self, loads: &Loads, step_s: f64) {
+        let [normal_n, rate] = loads.normal;
+        self.normal_n = nodes().at.map(|x| (normal_n + rate * (step_s * x)).max(0.0));
+    }
+
+    /// Without friction over a step, by what is kept.
+    pub(super) fn free_over(&mut self, step_s: f64) {
+        self.part = step_s / self.unit_s;
+        self.free = self.series.each_ref().map(|w| nodes().at.map(|x| value(w, self.part * x)));
     }
 
     /// Directions to begin with: those of the velocity under friction along one direction.
@@ -189,12 +289,13 @@ impl Force {
         }
     }
 
-    /// Directions to begin with, node by node, from rest.
-    pub(super) fn guess_each(&mut self, law: &Kinetic, along: impl Fn(usize) -> [f64; 2]) {
+    /// Directions to begin with, node by node, from rest, by how the velocity without friction changes there.
+    pub(super) fn guess_each(&mut self, law: &Kinetic, along: impl Fn([f64; 2]) -> [f64; 2]) {
         self.sizes = self.normal_n.map(|n| law.at(0.0) * n);
         self.speeds = [0.0; NODES];
-        for j in 0..NODES {
-            let u = along(j);
+        let changes = self.series.each_ref().map(derivative);
+        for (j, x) in nodes().at.iter().enumerate() {
+            let u = along(changes.each_ref().map(|change| value(change, self.part * x)));
             (self.u[0][j], self.u[1][j]) = (u[0], u[1]);
         }
     }

@@ -2,7 +2,7 @@
 //!
 //! A vector departs from its chord over a part of a step by no more than an eighth of its largest second
 //! derivative times the square of the part: where the ends and that bound cannot exceed what has been attained,
-//! nothing is looked for; else the part is halved.
+//! nothing is looked for; nor where the slope at its start is more than that derivative can turn; else the part is halved.
 
 use super::mass::{Matrix, times};
 use super::nodes::{NODES, nodes};
@@ -79,7 +79,7 @@ impl Peak {
         let q = squared(of);
         let (bend, rounding) = (bend(&q, to), ROUNDING * (self.norm * self.norm));
         let ends = ends.map(|v| v[0] * v[0] + v[1] * v[1]);
-        let arch = Arch { bend, rounding, ends, to };
+        let arch = Arch { bend, rise: q[1] * to, rounding, ends, to };
         self.search_length(&arch, |x| value(&q, x), best)
     }
 
@@ -96,7 +96,8 @@ impl Peak {
         let bends = [bend(&of[0], to), bend(&of[1], to)];
         for axis in 0..2 {
             let (bend, rounding) = (bends[axis], ROUNDING * self.norm);
-            let component = Arch { bend, rounding, ends: ends.map(|v| v[axis].abs()), to };
+            let (rise, ends) = (of[axis][1] * to, ends.map(|v| v[axis].abs()));
+            let component = Arch { bend, rise, rounding, ends, to };
             component.search(|x| value(&of[axis], x).abs(), &mut self.axes[axis]);
         }
         (ends, bends, best)
@@ -118,10 +119,11 @@ impl Peak {
     }
 }
 
-/// A function over `[0, to]`: its values at the ends, how far it departs from its chord, and what of it is
-/// rounding.
+/// A function over `[0, to]`: its values at the ends, how far it departs from its chord, how far it would rise as it does at
+/// the start, or 0, and what of it is rounding.
 struct Arch {
     bend: f64,
+    rise: f64,
     rounding: f64,
     ends: [f64; 2],
     to: f64,
@@ -134,7 +136,8 @@ impl Arch {
         let is_below = |ends: [f64; 2], part: f64, attained: f64| {
             ends[0].max(ends[1]) + self.bend * (part * part) <= attained + self.rounding
         };
-        if self.to == 0.0 || is_below(self.ends, 1.0, *attained) {
+        let is_known = is_below(self.ends, 1.0, *attained) || keeps_on(self.rise, self.bend);
+        if self.to == 0.0 || is_known {
             return None;
         }
         let mut best = None;
@@ -154,6 +157,22 @@ impl Arch {
         }
         best
     }
+}
+
+/// Whether a function that would rise so far as it does at the start, and departs from its chord by so much, turns nowhere.
+#[inline(always)]
+fn keeps_on(rise: f64, bend: f64) -> bool {
+    rise.abs() >= 8.0 * bend
+}
+
+/// The same of both components of a vector and of its length: `|v|²` changes by `2 v·v'`, and that by no more than
+/// `2 |v'|² + 2 |v| |v''|`.
+fn keeps_on_both([from, to]: [[f64; 2]; 2], rise: [f64; 2], bend: [f64; 2]) -> bool {
+    let turn = 8.0 * norm(bend);
+    let fastest = norm(rise) + turn;
+    let largest = norm(from).max(norm(to)) + norm(bend);
+    (0..2).all(|axis| keeps_on(rise[axis], bend[axis]))
+        && inner(from, rise).abs() >= fastest * fastest + largest * turn
 }
 
 /// All peaks.
@@ -393,7 +412,12 @@ impl Peaks {
         let ends = [list, last].map(|x| rows.map(|row| dot(row, &x[..row.len()])));
         let bend = rows.map(|row| size_of_sum(row, bends));
         peak.note_ends(ends, to);
-        if !peak.is_above(ends, bend) {
+        if peak.is_above(ends, bend) {
+            return;
+        }
+        let modes = series.modes;
+        let rise = rows.map(|row| to * dot(row, &list[modes..modes + row.len()]));
+        if !keeps_on_both(ends, rise, bend) {
             peak.look(&rows.map(|row| combined(row, list, series.degree)), to);
         }
     }
@@ -664,7 +688,8 @@ impl Vector {
         let mut bends = [0.0; 2];
         for axis in 0..2 {
             bends[axis] = bend(&all[axis], to) + norm(self.of_friction[axis]) * left_out;
-            let arch = Arch { bend: bends[axis], rounding, ends: ends.map(|v| v[axis].abs()), to };
+            let ends = ends.map(|v| v[axis].abs());
+            let arch = Arch { bend: bends[axis], rise: 0.0, rounding, ends, to };
             arch.search(|x| of(x)[axis].abs(), &mut peak.axes[axis]);
         }
         let largest = norm(ends[0]).max(norm(ends[1])) + norm(bends);
@@ -675,7 +700,7 @@ impl Vector {
         let of_friction = norm(self.of_friction.map(norm)) * left_out;
         let bend = bend(&squared(&all), to) + 2.0 * largest * of_friction;
         let rounding = ROUNDING * (peak.norm * peak.norm);
-        let arch = Arch { bend, rounding, ends: ends.map(square), to };
+        let arch = Arch { bend, rise: 0.0, rounding, ends: ends.map(square), to };
         peak.search_length(&arch, |x| square(of(x)), None);
     }
 }

@@ -6,7 +6,7 @@ use super::series::Kind;
 use super::stop::Instant;
 use super::system::Loads;
 use super::vector::{inner, norm};
-use crate::linear::polynomial::{derivative, value};
+use crate::linear::polynomial::value;
 use crate::solver::ground::Stretch;
 
 /// The last Legendre coefficients of friction over a step, times its length: of the largest speed, and of the least in the
@@ -60,6 +60,7 @@ impl Plane<'_> {
             }
         }
         self.near_s = near_s;
+        self.force.forget();
         let whole_s = self.system.within_reach(left_s).min(near_s);
         let mut step_s = whole_s.min(self.next_s);
         for _ in 0..MOST_LENGTHS {
@@ -97,42 +98,28 @@ impl Plane<'_> {
     }
 
     /// Tries a step of a length, leaving its series.
-    fn try_slip(&mut self, at: &Instant, starts: bool, (loads, step_s): (Loads, f64)) -> Tried {
-        self.expand(Kind::Frictionless, (loads, step_s));
-        if !(self.series.part >= 1.0) {
-            return Tried::Shorter(fitting(self.series.part));
+    fn try_slip(&mut self, at: &Instant, starts: bool, over: (Loads, f64)) -> Tried {
+        if let Some(part) = self.go_freely(starts, over) {
+            return Tried::Shorter(fitting(part));
         }
-        self.force.free_of(&self.series);
-        let is_at_bound = starts && norm(at.push) <= at.friction * (1.0 + AT_BOUND);
-        let changes = is_at_bound.then(|| self.series.w.each_ref().map(derivative));
-        self.influence.prepare(&self.system, (&loads, step_s), &mut self.series);
+        self.influence.prepare(&self.system, (&over.0, over.1), &mut self.series);
         let (law, w) = (self.system.kinetic_per_kg, self.state.w);
         let along = if at.speed > 0.0 { w.map(|w| w / at.speed) } else { self.direction };
-        if let Some(changes) = changes {
+        if starts && norm(at.push) <= at.friction * (1.0 + AT_BOUND) {
             // At its bound a block follows the push as that turns.
-            let (at, system) = (nodes().at, &self.system);
-            self.force.guess_each(&law, |j| {
-                let p = system.asked(changes.each_ref().map(|w| value(w, at[j])));
+            let system = &self.system;
+            self.force.guess_each(&law, |change| {
+                let p = system.asked(change);
                 let size = norm(p);
                 if size > 0.0 { p.map(|p| p / size) } else { along }
             });
         } else {
             self.force.guess(&law, along, at.speed, &self.influence);
         }
-        if !self.settle(step_s, (loads, along), at.speed) {
-            return Tried::Shorter(if starts { 0.3 } else { 0.5 });
-        }
-        let size = self.peak_speed.max(self.speed_scale);
-        let friction = self.force.largest();
-        // From rest the direction is that of the force, else that of the velocity.
-        let slowest = if starts { 0.1 * friction * step_s } else { self.force.slowest() };
-        let most = (TAIL[0] * size).min(TAIL[1] * slowest) / step_s;
-        let most = most.max(ROUNDING * friction);
-        // The eighth root: as many as there are nodes.
-        let longer = 0.9 * (most / self.series.tail).sqrt().sqrt().sqrt();
-        if self.series.tail > most {
-            return Tried::Shorter(longer.clamp(0.05, 0.7));
-        }
+        let longer = match self.settle(at, starts, over, along) {
+            Ok(longer) => longer,
+            Err(part) => return Tried::Shorter(part),
+        };
         if !(self.series.part >= 1.0) {
             return Tried::Shorter(fitting(self.series.part));
         }
@@ -142,21 +129,54 @@ impl Plane<'_> {
         Tried::Stands(longer.clamp(0.5, 4.0))
     }
 
-    /// Finds the force at the nodes and the motion under it.
-    fn settle(&mut self, step_s: f64, (loads, along): (Loads, [f64; 2]), speed: f64) -> bool {
+    /// Finds the velocities at the nodes of a step without friction; the part of it that a series takes, if that is less.
+    fn go_freely(&mut self, starts: bool, (loads, step_s): (Loads, f64)) -> Option<f64> {
+        self.force.press(&loads, step_s);
+        if !starts {
+            let of = (&self.state, &loads);
+            if let Some(free) = self.influence.free(&self.system, of, step_s, &mut self.series) {
+                self.force.free = free;
+                return None;
+            }
+        }
+        if !self.force.reaches(step_s) {
+            self.expand(Kind::Frictionless, (loads, step_s));
+            self.force.keep(&self.series);
+            if !(self.series.part >= 1.0) {
+                return Some(self.series.part);
+            }
+        }
+        self.force.free_over(step_s);
+        None
+    }
+
+    /// Finds the force at the nodes, and the series of the motion under it; how much longer a step may be, or shorter where
+    /// this one does not stand.
+    fn settle(
+        &mut self,
+        at: &Instant,
+        starts: bool,
+        (loads, step_s): (Loads, f64),
+        along: [f64; 2],
+    ) -> Result<f64, f64> {
         let law = self.system.kinetic_per_kg;
         // Of a pendulum under a vertical motion the influence changes along the step, which the series knows.
         let varies = loads.normal[1] != 0.0 && self.system.per_radius > 0.0;
+        let mut longer = 0.0;
         for _ in 0..if varies { 12 } else { 1 } {
             if !self.force.settle(&law, &self.influence) {
-                return false;
+                return Err(if starts { 0.3 } else { 0.5 });
             }
             let (friction, tail) = self.force.polynomial();
+            longer = self.longer(tail, starts, step_s);
+            if longer < 1.0 {
+                return Err((0.9 * longer).clamp(0.05, 0.7));
+            }
             (self.series.friction, self.series.tail) = (friction, tail);
             self.series.from = along;
             self.expand(Kind::Slip, (loads, step_s));
             if !varies {
-                return true;
+                break;
             }
             let mut off = 0.0_f64;
             for axis in 0..2 {
@@ -166,11 +186,23 @@ impl Plane<'_> {
                     off = off.max(more.abs());
                 }
             }
-            if off <= 1e-16 * self.force.speeds.iter().fold(speed, |most, r| most.max(*r)) {
-                return true;
+            if off <= 1e-16 * self.force.speeds.iter().fold(at.speed, |most, r| most.max(*r)) {
+                break;
             }
         }
-        true
+        Ok(0.9 * longer)
+    }
+
+    /// By how much the last coefficients allow a step to be longer.
+    fn longer(&self, tail: f64, starts: bool, step_s: f64) -> f64 {
+        let size = self.peak_speed.max(self.speed_scale);
+        let friction = self.force.largest();
+        // From rest the direction is that of the force, else that of the velocity.
+        let slowest = if starts { 0.1 * friction * step_s } else { self.force.slowest() };
+        let most = (TAIL[0] * size).min(TAIL[1] * slowest) / step_s;
+        let most = most.max(ROUNDING * friction);
+        // The eighth root: as many as there are nodes.
+        (most / tail).sqrt().sqrt().sqrt()
     }
 
     /// Whether the velocity keeps clear of rest up to the end of the step.
