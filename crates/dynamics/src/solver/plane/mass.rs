@@ -148,8 +148,9 @@ impl Mass {
             [turn, growth, libm::exp(log)]
         };
         let step = TURN / (self.compliance() * (friction + norm(push)));
+        let last = libm::log(FOLLOWED);
         for _ in 0..MOST_STEPS {
-            if log < libm::log(FOLLOWED) {
+            if log < last {
                 break;
             }
             // The classical rule of fourth order.

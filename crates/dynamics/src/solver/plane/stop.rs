@@ -64,12 +64,13 @@ impl Instant {
         let [compliance, inertia] = system.stretches();
         // d|w|_Ĉ/dt ≤ −(f − p)/√λ, λ the largest eigenvalue of Ĉ.
         let longest_s = inertia * (r / (f - p));
-        let time_s = match &system.mass {
-            None => (f * r + inner(self.push, state.w)) / ((f - p) * (f + p)),
+        let known_s = match &system.mass {
+            None => Some((f * r + inner(self.push, state.w)) / ((f - p) * (f + p))),
             Some(_) if !(r * longest_s < MASSIVE_PATH_M) => return None,
-            Some(mass) => mass.time_to_rest(state.w, self.push, f),
+            Some(_) => None,
         };
-        if !(r * time_s < NO_PATH_M) {
+        // d|w|/dt ≥ −λ (f + p), λ the largest eigenvalue of C.
+        if !(r * known_s.unwrap_or(r / (compliance * (f + p))) < NO_PATH_M) {
             return None;
         }
         let per_n = most / loads.normal[0];
@@ -78,11 +79,19 @@ impl Instant {
             2.0 * inertia * compliance * self.rate_of_push(system, state, loads, g) + of_friction;
         // What friction does in all directions of the last turn is told by the push at both of its ends, or, of a block with
         // a mass in each direction, at rest alone, which it may be a while from.
-        let lasts = match &system.mass {
-            None => rate * time_s < STANDS[0] * f,
-            Some(_) => rate * longest_s < STANDS[1] * f,
+        let lasts = match known_s {
+            Some(time_s) => rate * time_s < STANDS[0] * f,
+            None => rate * longest_s < STANDS[1] * f,
         };
-        (lasts && p + rate * longest_s < f).then_some(time_s.max(0.0))
+        if !(lasts && p + rate * longest_s < f) {
+            return None;
+        }
+        // Last, as it takes thousands of steps: the way to rest with a mass in each direction.
+        let time_s = match &system.mass {
+            Some(mass) => mass.time_to_rest(state.w, self.push, f),
+            None => known_s?,
+        };
+        (r * time_s < NO_PATH_M).then_some(time_s.max(0.0))
     }
 
     /// A bound on `|ṗ|` over times in which nothing but the direction of `w` changes: there `|b| ≤ |P| + f`.
