@@ -72,7 +72,7 @@ type State = Vec<f64>;
 /// Where a system is told to stick or to slide, and when.
 type Events = Vec<(f64, bool)>;
 
-/// The table and `N/M` at a time.
+/// The table's acceleration and `N` at a time.
 #[derive(Clone, Copy)]
 struct Loads {
     table: Pair,

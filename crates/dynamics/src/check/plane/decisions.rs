@@ -165,11 +165,9 @@ impl<'a> PlaneJudge<'a> {
 
     /// `u·ẇ` at the points of a step of a slip.
     fn gains(&self, step: &Step) -> [f64; POINTS] {
-        let (frame, slowings) = (self.frame(), step.slowings(self.frame()));
-        let headings = step.headings(frame);
         core::array::from_fn(|i| {
-            let (u, push) = (pair(&headings, i), step.push(i));
-            dot(u, frame.body.moved([0, 1].map(|k| push[k] - slowings[i] * u[k])))
+            let (u, push) = (pair(&step.headings, i), step.push(i));
+            dot(u, self.frame().body.moved([0, 1].map(|k| push[k] - step.slowings[i] * u[k])))
         })
     }
 
@@ -271,7 +269,7 @@ impl<'a> PlaneJudge<'a> {
             });
         }
         let frame = self.frame();
-        self.axes.heading = Some(step.heading(frame, POINTS - 1, step.push(POINTS - 1)));
+        self.axes.heading = Some(pair(&step.headings, last));
         // A push too small to tell the first direction grows into one that does.
         if let Some(turn) = self.axes.event_directions.last_mut()
             && turn.direction.is_none()

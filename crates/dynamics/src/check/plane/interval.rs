@@ -5,7 +5,6 @@ use super::super::structure::{excess, larger};
 use super::decisions::is_straight;
 use super::frame::{Loads, Pair, dot, norm, pair, unit};
 use super::judge::{Place, PlaneJudge};
-use super::peaks::Acting;
 use super::step::{FINE, State, Step, Stretch, time_to_rest};
 use crate::error::Stopped;
 use crate::response::Mode;
@@ -236,8 +235,8 @@ impl<'a> PlaneJudge<'a> {
         loop {
             self.pulse.beat(256 + 64 * self.frame().degrees() as u32)?;
             let step = self.axes.stepper.solve(&path.state, stretch.part(t, step_s), true);
-            let fine = |step: &Step| step.tail <= TAIL && step.defect() <= self.bearable();
-            if let Some(step) = step.filter(|step| fine(step)) {
+            let bearable = self.bearable();
+            if let Some(step) = step.filter(|s| s.tail <= TAIL && s.defect() <= bearable) {
                 return Ok(Some(step));
             }
             step_s *= 0.5;
@@ -334,12 +333,11 @@ impl<'a> PlaneJudge<'a> {
         let Stretch { from_s, step_s, .. } = step.stretch;
         let follows = self.law.follows();
         let (mut done, mut size, mut damping, mut friction) = (0.0, 0.0, 0.0, 0.0);
-        let Acting { under, .. } = &step.acting;
-        let (x, v, slowings) = (step.acting.x(), step.acting.v(), step.slowings(frame));
+        let (x, v, under) = (step.acting.x(), step.acting.v(), &step.acting.under);
         for (fastest, v) in path.fastest.iter_mut().zip(v) {
             *fastest = v.iter().fold(*fastest, |fastest, v| fastest.max(v.abs()));
         }
-        step.raise_rates(frame, &slowings, &mut path.rates);
+        step.raise_rates(frame, &mut path.rates);
         let (momentum, dissipation) = (frame.momentum(v), frame.dissipation(v));
         for (node, weight) in rule.weights.iter().enumerate() {
             let (point, weight) = (1 + node, step_s * weight);
@@ -348,7 +346,7 @@ impl<'a> PlaneJudge<'a> {
             size += weight * power.abs();
             damping += weight * dissipation[point];
             if step.slips {
-                friction += weight * frame.block_kg * slowings[point] * step.speeds[point];
+                friction += weight * frame.block_kg * step.slowings[point] * step.speeds[point];
             }
             if follows {
                 let rise = frame.curvature_per_m * under.normal[point];

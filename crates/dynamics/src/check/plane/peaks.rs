@@ -300,8 +300,7 @@ impl Peaks {
         coarse: bool,
     ) -> bool {
         let mut at = core::mem::take(&mut self.at);
-        let headings = step.slips.then(|| step.headings(tracked.frame));
-        tracked.vectors(&step.acting, headings, &mut at);
+        tracked.vectors(&step.acting, step.slips.then_some(step.headings), &mut at);
         let tells = self.raise(rule, tracked, &at, coarse);
         self.at = at;
         tells

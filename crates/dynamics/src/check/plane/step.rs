@@ -87,6 +87,9 @@ pub(super) struct Step {
     /// The size of `w`, and the largest.
     pub(super) speeds: [f64; POINTS],
     pub(super) quickest: f64,
+    /// `f` at the points, and in a slip its directions there.
+    pub(super) slowings: [f64; POINTS],
+    pub(super) headings: [Column<POINTS>; 2],
     /// Directions of a slip at both ends by the polynomial of the force, if there is one.
     ends: [Option<Pair>; 2],
     /// Largest of the last Legendre coefficients of the slider's force over its largest value.
@@ -132,22 +135,6 @@ impl Step {
     /// Loads at a point.
     pub(super) fn loads(&self, point: usize) -> Loads {
         between(&self.stretch.loads, Rule::get().points[point])
-    }
-
-    /// Directions of a slip at the points.
-    pub(super) fn headings(&self, frame: &PlaneFrame<'_>) -> [Column<POINTS>; 2] {
-        let mut headings = [[0.0; POINTS]; 2];
-        for point in 0..POINTS {
-            let along = self.heading(frame, point, self.push(point));
-            (0..2).for_each(|axis| headings[axis][point] = along[axis]);
-        }
-        headings
-    }
-
-    /// `f` at the points.
-    pub(super) fn slowings(&self, frame: &PlaneFrame<'_>) -> [f64; POINTS] {
-        let normal = &self.acting.under.normal;
-        core::array::from_fn(|i| frame.slowing_and_slope(normal[i], self.speeds[i])[0])
     }
 
     /// The direction of a slip at a point under a push. At rest, in which a slip begins and ends along the push,
@@ -216,18 +203,14 @@ impl Step {
 
     /// Raises the largest rate of each velocity by those at the points: what acts on a block that rests or slides.
     #[inline(always)]
-    pub(super) fn raise_rates(
-        &self,
-        frame: &PlaneFrame<'_>,
-        slowings: &[f64; POINTS],
-        most: &mut [f64],
-    ) {
+    pub(super) fn raise_rates(&self, frame: &PlaneFrame<'_>, most: &mut [f64]) {
         let Acting { under, forces, floors, .. } = &self.acting;
         let (mut carried, w) = (under.a, self.acting.v());
         if self.slips {
             let mut moved = [[0.0; POINTS]; 2];
             for i in 0..POINTS {
-                let slowed = if self.speeds[i] > 0.0 { slowings[i] / self.speeds[i] } else { 0.0 };
+                let (f, r) = (self.slowings[i], self.speeds[i]);
+                let slowed = if r > 0.0 { f / r } else { 0.0 };
                 let of = |axis: usize| forces.push[axis][i] - slowed * w[axis][i];
                 let block = frame.body.moved([of(0), of(1)]);
                 (0..2).for_each(|axis| moved[axis][i] = block[axis]);
@@ -453,7 +436,8 @@ impl<'a> Stepper<'a> {
         states: Vec<Column<POINTS>>,
         forces: &[[f64; NODES]; 2],
     ) -> Box<Step> {
-        let acting = Acting::new(self.frame, states, self.under(&stretch));
+        let frame = self.frame;
+        let acting = Acting::new(frame, states, self.under(&stretch));
         let w = acting.v();
         let speeds: [f64; POINTS] = core::array::from_fn(|i| norm([w[0][i], w[1][i]]));
         let [x, y] = forces;
@@ -469,7 +453,26 @@ impl<'a> Stepper<'a> {
             tail = last.into_iter().flatten().fold(0.0, f64::max) / sharpest;
         }
         let quickest = speeds.iter().fold(0.0, |most: f64, speed| most.max(*speed));
-        Box::new(Step { stretch, slips, acting, speeds, quickest, ends, tail, sharpest })
+        let normal = acting.under.normal;
+        let slowings = core::array::from_fn(|i| frame.slowing_and_slope(normal[i], speeds[i])[0]);
+        let headings = [[0.0; POINTS]; 2];
+        let mut step = Box::new(Step {
+            stretch,
+            slips,
+            acting,
+            speeds,
+            quickest,
+            slowings,
+            headings,
+            ends,
+            tail,
+            sharpest,
+        });
+        for point in (0..POINTS).filter(|_| slips) {
+            let along = step.heading(frame, point, step.push(point));
+            (0..2).for_each(|axis| step.headings[axis][point] = along[axis]);
+        }
+        step
     }
 }
 
