@@ -11,6 +11,7 @@ mod mass;
 mod nodes;
 mod peaks;
 mod record;
+mod rows;
 mod series;
 mod slip;
 mod speed;
@@ -124,7 +125,7 @@ impl<'a> Plane<'a> {
             path_m: 0.0,
             events: Vec::new(),
             recorder: with_history.then(|| Recorder::new(&system)),
-            ahead: Ahead::new(&system, ground.sampling.dt_s),
+            ahead: Ahead::new(&system, instructions, ground.sampling.dt_s),
             g: vec![0.0; modes],
             system,
             state,

@@ -11,10 +11,13 @@
 //! What that does not exclude is left to the series.
 
 use super::Plane;
-use super::peaks::{StickEnd, size_of_sum};
+use super::peaks::StickEnd;
+use super::rows::{AtPoints, size_of_sum};
 use super::system::System;
 use super::vector::{inner, norm};
 use crate::error::SolveError;
+use crate::numerics::InstructionSet;
+use crate::numerics::instructions::vectorize;
 use crate::response::Mode;
 use crate::solver::phase::{Phase, Reached};
 use crate::solver::walk::Walk;
@@ -27,6 +30,7 @@ const TERMS: usize = 20;
 
 /// How modes go through a sample of a stick.
 pub(super) struct Ahead {
+    instructions: InstructionSet,
     step_s: f64,
     modes: Vec<Map>,
     /// How far `η` and `g` of each mode depart from their chords at most.
@@ -35,6 +39,11 @@ pub(super) struct Ahead {
     eta: Vec<f64>,
     rate: Vec<f64>,
     g: Vec<f64>,
+    /// What points do at the start of a sample, which is known after another, and at its end, and how far they depart from
+    /// their chords at most.
+    points: [AtPoints; 2],
+    is_known: bool,
+    bends_at_points: AtPoints,
 }
 
 /// The map of a mode over a sample, of `(η, η̇)`, of the load `−L·a` at its start and of the rate of that.
@@ -118,12 +127,28 @@ impl Map {
 
 impl Ahead {
     /// Of samples that are evenly spaced; none where dampers couple the modes, or one has no stiffness.
-    pub(super) fn new(system: &System, step_s: Option<f64>) -> Option<Self> {
+    pub(super) fn new(
+        system: &System,
+        instructions: InstructionSet,
+        step_s: Option<f64>,
+    ) -> Option<Self> {
         let [omega2, damping] = system.uncoupled()?;
         let step_s = step_s.filter(|_| omega2.iter().all(|omega2| *omega2 > 0.0))?;
         let modes = omega2.iter().zip(damping).map(|(o, d)| Map::new(step_s, *o, *d)).collect();
         let list = || vec![0.0; omega2.len()];
-        Some(Self { step_s, modes, bends: [list(), list()], eta: list(), rate: list(), g: list() })
+        let at_points = || AtPoints::new(system.points);
+        Some(Self {
+            instructions,
+            step_s,
+            modes,
+            bends: [list(), list()],
+            eta: list(),
+            rate: list(),
+            g: list(),
+            points: [at_points(), at_points()],
+            is_known: false,
+            bends_at_points: at_points(),
+        })
     }
 }
 
@@ -134,6 +159,7 @@ pub(super) fn run_ahead<'a>(
 ) -> Result<Reached, SolveError> {
     let Some(mut ahead) = walk.phase.ahead.take() else { return Ok(Reached { sample, at_s: 0.0 }) };
     let mut done = Ok(());
+    ahead.is_known = false;
     while walk.course.block.mode == Mode::Stick && !walk.phase.is_released && sample < end {
         done = walk.pulse.beat(walk.units);
         if done.is_err() || !walk.phase.passes(&mut ahead, sample) {
@@ -145,6 +171,8 @@ pub(super) fn run_ahead<'a>(
         let state = &mut walk.phase.state;
         core::mem::swap(&mut state.eta, &mut ahead.eta);
         core::mem::swap(&mut state.rate, &mut ahead.rate);
+        ahead.points.swap(0, 1);
+        ahead.is_known = true;
         walk.phase.scales.note(&walk.phase.state);
         walk.phase.least.interrupt();
         sample += 1;
@@ -157,6 +185,11 @@ pub(super) fn run_ahead<'a>(
 impl Plane<'_> {
     /// Follows a sample of a stick; whether it is certain that nothing happens in it, no peak either.
     fn passes(&mut self, ahead: &mut Ahead, sample: usize) -> bool {
+        vectorize!(ahead.instructions, _simd => self.passes_here(ahead, sample))
+    }
+
+    #[inline(always)]
+    fn passes_here(&mut self, ahead: &mut Ahead, sample: usize) -> bool {
         let (system, state) = (&self.system, &self.state);
         let [from, to] = [sample, sample + 1].map(|i| {
             let normal_n = self.ground.normal_at(i);
@@ -177,21 +210,32 @@ impl Plane<'_> {
         }
         let g = &mut self.g;
         system.restoring(&state.eta, &state.rate, g);
-        let end = |(table, normal_n): ([f64; 2], f64), eta, g| {
+        let end = |(table, normal_n): ([f64; 2], f64), g| {
             let shear_n = system.shear_n(g);
             let pull =
                 [0, 1].map(|k| system.pull(shear_n[k], state.s[k], 0.0, normal_n * state.s[k]));
-            StickEnd { table, pull, push: system.push(pull, table), shear_n, eta, g }
+            StickEnd { table, pull, push: system.push(pull, table), shear_n, g }
         };
-        let ends = [end(from, &state.eta, g), end(to, &ahead.eta, &ahead.g)];
+        let ends = [end(from, g), end(to, &ahead.g)];
         let bend_n = system.participation.each_ref().map(|l| size_of_sum(l, &ahead.bends[1]));
         let bend = bend_n.map(|bend| bend / system.block_kg);
         let hold = system.hold.radius(from.1.min(to.1));
         let largest = norm(ends[0].push).max(norm(ends[1].push)) + norm(bend);
         let [first, last] = &ends;
-        hold > 0.0
+        if !(hold > 0.0
             && largest < WITHIN * hold
-            && self.peaks.hold_in_stick(system, [first, last], (bend_n, &ahead.bends))
+            && self.peaks.hold_in_stick(system, [first, last], (bend_n, &ahead.bends[1])))
+        {
+            return false;
+        }
+        let [at_start, at_end] = &mut ahead.points;
+        if !ahead.is_known {
+            at_start.values(system, &state.eta, g);
+        }
+        at_end.values(system, &ahead.eta, &ahead.g);
+        ahead.bends_at_points.bends(system, &ahead.bends);
+        let tables = [from.0, to.0];
+        self.peaks.hold_at_points(system, tables, &ahead.points, &ahead.bends_at_points)
     }
 }
 

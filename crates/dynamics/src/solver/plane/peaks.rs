@@ -6,6 +6,7 @@
 
 use super::mass::{Matrix, times};
 use super::nodes::{NODES, nodes};
+use super::rows::{AtPoints, Rows, at};
 use super::series::{Kind, Series, square};
 use super::stop::Arc;
 use super::system::{State, System};
@@ -13,7 +14,7 @@ use super::vector::{inner, norm};
 use crate::linear::polynomial::{
     DEGREE, Polynomial, ZERO, curvature_bound, curvature_term, largest, value,
 };
-use crate::numerics::algebra::dot;
+use crate::numerics::instructions::vectorize;
 use crate::response::output::Output;
 
 /// A relative difference of peaks that is rounding.
@@ -179,8 +180,7 @@ fn keeps_on_both([from, to]: [[f64; 2]; 2], rise: [f64; 2], bend: [f64; 2]) -> b
 pub(super) struct Peaks {
     points: usize,
     all: Vec<Peak>,
-    /// Room for a number of each mode.
-    bends: Vec<f64>,
+    room: Room,
     /// Of `s`: its length, when that was largest and where; largest and smallest by axis.
     pub(super) sliding: Peak,
     pub(super) peak_time_s: f64,
@@ -189,13 +189,41 @@ pub(super) struct Peaks {
     pub(super) smallest: [f64; 2],
 }
 
-/// An end of a sample of a stick: the table, `P`, `p`, `L g`, `η` and `g`.
+/// Room for what points do at the ends of a part of a series, and how far they and the modes depart from their chords.
+#[derive(Default)]
+struct Room {
+    ends: [AtPoints; 2],
+    bends: AtPoints,
+    of_modes: [Vec<f64>; 2],
+}
+
+impl Room {
+    fn new(system: &System) -> Self {
+        let at_points = || AtPoints::new(system.points);
+        let list = || vec![0.0; system.modes()];
+        Self { ends: [at_points(), at_points()], bends: at_points(), of_modes: [list(), list()] }
+    }
+
+    /// Of a part of a series that ends with `η` and `g`.
+    #[inline(always)]
+    fn look(&mut self, system: &System, series: &Series, to: f64, (eta, g): (&[f64], &[f64])) {
+        let modes = series.modes;
+        let [first, last] = &mut self.ends;
+        first.values(system, &series.eta[..modes], &series.g[..modes]);
+        last.values(system, eta, g);
+        let [of_eta, of_g] = &mut self.of_modes;
+        series.bends(&series.eta, to, of_eta);
+        series.bends(&series.g, to, of_g);
+        self.bends.bends(system, &self.of_modes);
+    }
+}
+
+/// An end of a sample of a stick: the table, `P`, `p`, `L g` and `g`.
 pub(super) struct StickEnd<'a> {
     pub(super) table: [f64; 2],
     pub(super) pull: [f64; 2],
     pub(super) push: [f64; 2],
     pub(super) shear_n: [f64; 2],
-    pub(super) eta: &'a [f64],
     pub(super) g: &'a [f64],
 }
 
@@ -272,7 +300,7 @@ impl Peaks {
         Self {
             points: system.points,
             all: vec![Peak::default(); Output::count(system.points, 0)],
-            bends: vec![0.0; system.modes()],
+            room: Room::new(system),
             sliding,
             peak_time_s: 0.0,
             peak_place: s,
@@ -285,16 +313,15 @@ impl Peaks {
         self.all[output.place(self.points)]
     }
 
-    /// Whether all that lies between the ends of a sample of a stick, and these, is below what is attained; with how far
-    /// `L g`, and `η` and `g` of each mode, depart from their chords.
+    /// Whether all of block and slider that lies between the ends of a sample of a stick, and these, is below what is
+    /// attained; with how far `L g`, and `g` of each mode, depart from their chords.
     pub(super) fn hold_in_stick(
         &self,
         system: &System,
         ends: [&StickEnd<'_>; 2],
-        (bend_n, [of_eta, of_g]): ([f64; 2], &[Vec<f64>; 2]),
+        (bend_n, of_g): ([f64; 2], &[f64]),
     ) -> bool {
         let tables = ends.map(|end| end.table);
-        let (etas, gs) = (ends.map(|end| end.eta), ends.map(|end| end.g));
         let kg = system.block_kg;
         let of_push = ends.map(|end| end.push.map(|p| kg * p));
         let of_slider =
@@ -305,36 +332,42 @@ impl Peaks {
             && self.of(Output::BaseShear).is_above(ends.map(|end| end.shear_n), bend_n);
         let overturns = |axis: usize| {
             let Some((arm, along)) = &system.overturning[axis] else { return true };
-            let mut ends = [[0.0; 2]; 2];
+            let (mut values, mut bend) = ([[0.0; 2]; 2], [0.0; 2]);
             for i in 0..2 {
-                ends[i][axis] = inner(*along, tables[i]) - dot(arm, gs[i]);
+                values[i][axis] = inner(*along, tables[i]) - arm.sum(0, ends[i].g);
             }
-            let mut bend = [0.0; 2];
-            bend[axis] = size_of_sum(arm, of_g);
-            self.of(Output::Overturning).is_above_by_axis(ends, bend)
+            bend[axis] = arm.size(0, of_g);
+            self.of(Output::Overturning).is_above_by_axis(values, bend)
         };
-        let point = |i: usize| {
-            let rows = [system.floor(0, i), system.floor(1, i)];
-            let of = |rows: [&[f64]; 2], lists: [&[f64]; 2]| {
-                lists.map(|list| rows.map(|row| dot(row, list)))
-            };
-            let bend = |rows: [&[f64]; 2], bends: &[f64]| rows.map(|row| size_of_sum(row, bends));
-            let mut accelerations = of(rows, gs);
+        own && (0..2).all(overturns)
+    }
+
+    /// The same of the points.
+    pub(super) fn hold_at_points(
+        &self,
+        system: &System,
+        tables: [[f64; 2]; 2],
+        ends: &[AtPoints; 2],
+        bends: &AtPoints,
+    ) -> bool {
+        let ends = ends.each_ref();
+        (0..self.points).all(|i| {
+            let mut accelerations = ends.map(|end| at(&end.of_g, i));
             if let Some(part) = system.with_block.get(i) {
                 for (acceleration, table) in accelerations.iter_mut().zip(tables) {
                     let carried = times(part, table);
                     *acceleration = [0, 1].map(|k| carried[k] - acceleration[k]);
                 }
             }
-            let drift = i == 0 || {
-                let rows = [system.drift(0, i), system.drift(1, i)];
-                self.of(Output::Drift(i)).is_above(of(rows, etas), bend(rows, of_eta))
+            let drifts = || {
+                let ends = ends.map(|end| at(&end.drifts, i));
+                self.of(Output::Drift(i)).is_above(ends, at(&bends.drifts, i))
             };
-            drift
-                && self.of(Output::Displacement(i)).is_above(of(rows, etas), bend(rows, of_eta))
-                && self.of(Output::Acceleration(i)).is_above(accelerations, bend(rows, of_g))
-        };
-        own && (0..2).all(overturns) && (0..self.points).all(point)
+            let displacements = ends.map(|end| at(&end.displacements, i));
+            self.of(Output::Displacement(i)).is_above(displacements, at(&bends.displacements, i))
+                && self.of(Output::Acceleration(i)).is_above(accelerations, at(&bends.of_g, i))
+                && (i == 0 || drifts())
+        })
     }
 
     /// Looks for peaks in the first part of a series that begins at a time, and ends in a state.
@@ -368,57 +401,58 @@ impl Peaks {
         block: Option<&Vector>,
     ) {
         let &SeriesPart { system, series, to, .. } = part;
-        let mut bends = core::mem::take(&mut self.bends);
-        let displacements = (&*series.eta, &*end.eta);
-        series.bends(&series.eta, to, &mut bends);
+        let mut room = core::mem::take(&mut self.room);
+        vectorize!(series.instructions, _simd => room.look(system, series, to, (&end.eta, g)));
+        let Room { ends, bends, .. } = &room;
+        let ends = ends.each_ref();
         for i in 0..system.points {
-            let rows = [system.floor(0, i), system.floor(1, i)];
-            self.look_at_rows(Output::Displacement(i), rows, displacements, (series, to), &bends);
+            let displacements = ends.map(|end| at(&end.displacements, i));
+            let of = (displacements, at(&bends.displacements, i));
+            let rows = (&system.floors, i, &*series.eta);
+            self.look_at_rows(Output::Displacement(i), of, rows, (series, to));
             if i > 0 {
-                let rows = [system.drift(0, i), system.drift(1, i)];
-                self.look_at_rows(Output::Drift(i), rows, displacements, (series, to), &bends);
+                let of = (ends.map(|end| at(&end.drifts, i)), at(&bends.drifts, i));
+                let rows = (&system.drifts, i, &*series.eta);
+                self.look_at_rows(Output::Drift(i), of, rows, (series, to));
             }
-        }
-        series.bends(&series.g, to, &mut bends);
-        for i in 0..system.points {
-            let rows = [system.floor(0, i), system.floor(1, i)];
+            let rows = (&system.floors, i, &*series.g);
             if let (Some(with_block), Some(block)) = (system.with_block.get(i), block) {
                 // −Φ g + W b
+                let of_modes = series.combined(rows);
                 let steady = [0, 1].map(|axis| -> Polynomial {
-                    let of_modes = combined(rows[axis], &series.g, series.degree);
                     let [x, y] = &block.steady;
                     let row = with_block[axis];
-                    core::array::from_fn(|k| inner(row, [x[k], y[k]]) - of_modes[k])
+                    core::array::from_fn(|k| inner(row, [x[k], y[k]]) - of_modes[axis][k])
                 });
                 let of_friction = with_block.map(|row| row_times(row, &block.of_friction));
                 self.look_at_vector(Output::Acceleration(i), &Vector { steady, of_friction }, part);
                 continue;
             }
-            self.look_at_rows(Output::Acceleration(i), rows, (&series.g, g), (series, to), &bends);
+            let of = (ends.map(|end| at(&end.of_g, i)), at(&bends.of_g, i));
+            self.look_at_rows(Output::Acceleration(i), of, rows, (series, to));
         }
-        self.bends = bends;
+        self.room = room;
     }
 
-    /// The same output of the modes along x and y, from their series and what they are at its end.
+    /// An output of a point along x and y, from its values at the ends and how far it departs from its chord at most; else
+    /// from its series.
+    #[inline(always)]
     fn look_at_rows(
         &mut self,
         output: Output,
-        rows: [&[f64]; 2],
-        (list, last): (&[f64], &[f64]),
+        (ends, bend): ([[f64; 2]; 2], [f64; 2]),
+        rows: (&[Rows; 2], usize, &[f64]),
         (series, to): (&Series, f64),
-        bends: &[f64],
     ) {
         let peak = &mut self.all[output.place(self.points)];
-        let ends = [list, last].map(|x| rows.map(|row| dot(row, &x[..row.len()])));
-        let bend = rows.map(|row| size_of_sum(row, bends));
         peak.note_ends(ends, to);
         if peak.is_above(ends, bend) {
             return;
         }
-        let modes = series.modes;
-        let rise = rows.map(|row| to * dot(row, &list[modes..modes + row.len()]));
+        let (of, point, list) = rows;
+        let rise = of.each_ref().map(|rows| to * rows.sum(point, &list[series.modes..]));
         if !keeps_on_both(ends, rise, bend) {
-            peak.look(&rows.map(|row| combined(row, list, series.degree)), to);
+            peak.look(&series.combined(rows), to);
         }
     }
 
@@ -478,7 +512,7 @@ impl Peaks {
         for axis in 0..2 {
             let Some((arm, along)) = &system.overturning[axis] else { continue };
             // The moment of floors and block: −arm·g + along·b.
-            let modes = combined(arm, &series.g, series.degree);
+            let modes = arm.series(0, series.modes, &series.g, series.degree);
             let of_block = |pull: &[Polynomial; 2]| -> Polynomial {
                 core::array::from_fn(|k| inner(*along, [pull[0][k], pull[1][k]]) - modes[k])
             };
@@ -544,7 +578,7 @@ impl Peaks {
             let Some((arm, along)) = moment.as_ref().filter(|_| system.mass.is_none()) else {
                 continue;
             };
-            let modes = dot(arm, g);
+            let modes = arm.sum(0, g);
             let [from, to] = pulls;
             let within = arc.extremes(to).map(|u| (u, arc.part_left(u)));
             for (u, left) in within.chain([(arc.to, 0.0)]) {
@@ -580,7 +614,7 @@ impl Peaks {
         };
         raise(Output::Block, &block);
         for (i, part) in system.with_block.iter().enumerate() {
-            let of_modes = [0, 1].map(|axis| dot(system.floor(axis, i), g));
+            let of_modes = [0, 1].map(|axis| system.floors[axis].sum(i, g));
             let of = |u: [f64; 2]| {
                 let of_block = times(part, block(u));
                 [of_block[0] - of_modes[0], of_block[1] - of_modes[1]]
@@ -590,31 +624,13 @@ impl Peaks {
         let moments = system
             .overturning
             .each_ref()
-            .map(|moment| moment.as_ref().map(|(arm, along)| (dot(arm, g), *along)));
+            .map(|moment| moment.as_ref().map(|(arm, along)| (arm.sum(0, g), *along)));
         let of = |u: [f64; 2]| {
             let b = block(u);
             moments.map(|moment| moment.map_or(0.0, |(modes, along)| inner(along, b) - modes))
         };
         raise(Output::Overturning, &of);
     }
-}
-
-/// `Σ |a_j| b_j`.
-#[inline(always)]
-pub(super) fn size_of_sum(row: &[f64], bends: &[f64]) -> f64 {
-    row.iter().zip(bends).fold(0.0, |sum, (x, bend)| sum + x.abs() * bend)
-}
-
-/// A row of the modes as a series.
-fn combined(row: &[f64], list: &[f64], order: usize) -> Polynomial {
-    let modes = row.len();
-    let mut sums = ZERO;
-    for (sum, of_k) in sums[..=order].iter_mut().zip(list.chunks_exact(modes.max(1))) {
-        for (row, x) in row.iter().zip(of_k) {
-            *sum += row * x;
-        }
-    }
-    sums
 }
 
 /// What friction takes at a part of a series: in slip along the velocity there; from rest, where that begins with

@@ -1,7 +1,6 @@
 //! Keeps the history of a response in two horizontal directions.
 
 use super::system::System;
-use crate::numerics::algebra::dot;
 use crate::response::{History, HistoryAlongY, Mode};
 
 /// What is known at a knot.
@@ -60,7 +59,7 @@ impl Recorder {
         }
         let floors = if system.oscillators.is_empty() { system.points } else { 0 };
         for i in 0..floors {
-            let of = |list: &[f64]| [0, 1].map(|axis| dot(system.floor(axis, i), list));
+            let of = |list: &[f64]| [0, 1].map(|axis| system.floors[axis].sum(i, list));
             both([&mut x.storey_displacement_m, &mut y.storey_displacement_m], of(knot.eta));
             both([&mut x.storey_velocity_m_per_s, &mut y.storey_velocity_m_per_s], of(knot.rate));
             let accelerations = of(knot.g).map(|g| -g);

@@ -1,5 +1,6 @@
 //! The motion by powers of the time, in stick and in slip: linear once the force of friction is known.
 
+use super::rows::Rows;
 use super::system::{Loads, State, System};
 use super::terms::{NEGLIGIBLE, Scales, Sizes, lowest};
 use super::vector::inner;
@@ -21,7 +22,7 @@ pub(super) enum Kind {
 /// The motion from an instant on, by powers of the time over a unit in s.
 pub(super) struct Series {
     pub(super) kind: Kind,
-    instructions: InstructionSet,
+    pub(super) instructions: InstructionSet,
     pub(super) modes: usize,
     pub(super) loads: Loads,
     pub(super) unit: f64,
@@ -241,6 +242,14 @@ impl Series {
             }
         }
         bends.iter_mut().for_each(|bend| *bend *= to * to);
+    }
+
+    /// What a row along x and y makes of a list of the modes.
+    pub(super) fn combined(
+        &self,
+        (of, point, list): (&[Rows; 2], usize, &[f64]),
+    ) -> [Polynomial; 2] {
+        of.each_ref().map(|rows| rows.series(point, self.modes, list, self.degree))
     }
 
     /// The state at a part of the unit.

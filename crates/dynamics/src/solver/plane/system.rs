@@ -1,6 +1,7 @@
 //! The equations of motion in two horizontal directions.
 
 use super::mass::{Mass, Matrix, times};
+use super::rows::Rows;
 use super::vector::norm;
 use crate::error::SolveError;
 use crate::linear;
@@ -29,6 +30,7 @@ const ROUNDED: f64 = 2e-14;
 ///
 /// What modes that are not given lack of the mass moves with the block, as much as it may be along x, along y and
 /// across: where that is no multiple of the identity the block has a [`Mass`].
+#[derive(Clone, Debug)]
 pub(in crate::solver) struct System {
     /// Number of points whose motion is told: floors, or points of a structure by its modes.
     pub(super) points: usize,
@@ -49,17 +51,21 @@ pub(in crate::solver) struct System {
     coupled: bool,
     /// `L` along x and y.
     pub(super) participation: [Vec<f64>; 2],
-    /// `Φ` along x and y: point `i`, mode `j` at `i * modes + j`; drifts from the point before in the same way.
-    floors: [Vec<f64>; 2],
-    drifts: [Vec<f64>; 2],
+    /// `Φ` along x and y, and what of it the drift from the point before is.
+    pub(super) floors: [Rows; 2],
+    pub(super) drifts: [Rows; 2],
     /// What of each point's acceleration is the block's; none where nothing is.
     pub(super) with_block: Vec<Matrix>,
     /// Of oscillators along their directions, `1/|L|`; none of a frame.
     pub(super) oscillators: Vec<f64>,
     /// What the modes and the block add to the overturning moment along x and y, where it is asked for.
-    pub(super) overturning: [Option<(Vec<f64>, [f64; 2])>; 2],
+    pub(super) overturning: [Option<(Rows, [f64; 2])>; 2],
     /// Bound on the rates in rad/s.
     pub(in crate::solver) rate_rad_per_s: f64,
+}
+
+fn refused(what: &'static str) -> SolveError {
+    SolveError::NotTaken { method: "two horizontal directions", what }
 }
 
 /// The model as it is along y: as along x but for what [`Model::along_y`] says.
@@ -73,7 +79,6 @@ impl System {
     /// # Errors
     /// [`SolveError::NotTaken`] that names what is not.
     pub(in crate::solver) fn new(model: &Model) -> Result<Self, SolveError> {
-        let refused = |what| SolveError::NotTaken { method: "two horizontal directions", what };
         let slider = model.slider().isotropic().map_err(refused)?;
         if !model.contents().is_empty() {
             return Err(refused("contents"));
@@ -111,22 +116,34 @@ impl System {
             damping: damping(&axes, n, coupled),
             coupled,
             participation: each_axis(&|k| place(k, &axes[k].participation)),
-            floors: each_axis(&|k| (0..n).flat_map(|i| place(k, axes[k].floor(i))).collect()),
-            drifts: each_axis(&|k| (0..n).flat_map(|i| place(k, axes[k].drift(i))).collect()),
+            floors: each_axis(&|k| (0..n).flat_map(|i| place(k, axes[k].floor(i))).collect())
+                .map(|rows| Rows::new(modes, &rows)),
+            drifts: each_axis(&|k| (0..n).flat_map(|i| place(k, axes[k].drift(i))).collect())
+                .map(|rows| Rows::new(modes, &rows)),
             with_block: Vec::new(),
             oscillators: Vec::new(),
             overturning: [0, 1].map(|k| {
                 let (arm, block) = Arms::new(models[k], &[])?.by_modes(&axes[k]);
                 let along = if k == 0 { [block, 0.0] } else { [0.0, block] };
-                Some((place(k, if n == 0 { &[] } else { &arm }), along))
+                Some((Rows::new(modes, &place(k, if n == 0 { &[] } else { &arm })), along))
             }),
             rate_rad_per_s: axes.iter().fold(0.0, |rate: f64, a| rate.max(a.slip_rate_rad_per_s)),
         })
     }
 
+    /// The same under the friction of a model that [has this system](Model::has_system_of).
+    ///
+    /// # Errors
+    /// [`SolveError::NotTaken`] where friction is not the same in all directions.
+    pub(in crate::solver) fn under_friction_of(&self, model: &Model) -> Result<Self, SolveError> {
+        let slider = model.slider().isotropic().map_err(refused)?;
+        let per_kg = 1.0 / self.block_kg;
+        let (hold, kinetic_per_kg) = (slider.hold.times(per_kg), slider.kinetic.times(per_kg));
+        Ok(Self { hold, kinetic_per_kg, ..self.clone() })
+    }
+
     /// Of a structure by its modes, each of which may move along both axes.
     fn of_modes(model: &Model, structure: &Structure) -> Result<Self, SolveError> {
-        let refused = |what| SolveError::NotTaken { method: "two horizontal directions", what };
         let slider = model.slider().isotropic().map_err(refused)?;
         if structure.in_plane.is_empty() {
             return Err(refused("a structure whose modes do not say what they do along y"));
@@ -148,7 +165,8 @@ impl System {
             let drift = |(i, row): (usize, &Vec<f64>)| -> Vec<f64> {
                 row.iter().enumerate().map(|(j, x)| x - below(i, j)).collect()
             };
-            rows.iter().enumerate().flat_map(drift).collect()
+            let rows: Vec<f64> = rows.iter().enumerate().flat_map(drift).collect();
+            Rows::new(modes.len(), &rows)
         });
         // What moves with the block: M_tot I − Σ L Lᵀ.
         let [[x, across], [_, y]] = structure.mass_in_plane_kg();
@@ -175,7 +193,7 @@ impl System {
                     along.iter_mut().zip(with_block[k]).for_each(|(a, part)| *a += lever * part);
                 }
             }
-            Some((arm, along))
+            Some((Rows::new(modes.len(), &arm), along))
         };
         let overturning = [moment(0), moment(1)];
         let per_kg = 1.0 / block_kg;
@@ -206,7 +224,7 @@ impl System {
             damping,
             coupled: false,
             participation,
-            floors: floors.map(|rows| rows.into_iter().flatten().collect()),
+            floors: floors.map(|rows| Rows::new(modes.len(), &rows.concat())),
             drifts,
             with_block,
             oscillators: sizes.iter().map(|size| 1.0 / size).collect(),
@@ -269,16 +287,6 @@ impl System {
         self.mass.as_ref().map_or([1.0; 2], |mass| [mass.compliance(), mass.inertia()])
     }
 
-    /// `Φ_i` of a floor along an axis.
-    pub(super) fn floor(&self, axis: usize, floor: usize) -> &[f64] {
-        &self.floors[axis][floor * self.modes()..][..self.modes()]
-    }
-
-    /// What the modes do to the drift of a storey along an axis.
-    pub(super) fn drift(&self, axis: usize, storey: usize) -> &[f64] {
-        &self.drifts[axis][storey * self.modes()..][..self.modes()]
-    }
-
     /// `g = D η̇ + Ω η`.
     #[inline(always)]
     pub(super) fn restoring(&self, eta: &[f64], rate: &[f64], g: &mut [f64]) {
@@ -322,8 +330,8 @@ impl System {
         }
         let of_mode = |j: usize| {
             let axes = [0, 1].iter().map(|&k| {
-                let floors =
-                    (0..self.points).map(|i| self.floor(k, i)[j] * masses_kg[i] * of_floors[k][i]);
+                let floors = (0..self.points)
+                    .map(|i| self.floors[k].of_mode(i, j) * masses_kg[i] * of_floors[k][i]);
                 floors.sum::<f64>()
             });
             axes.sum()
