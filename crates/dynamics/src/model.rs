@@ -543,6 +543,7 @@ impl Model {
             && self.frame == other.frame
             && self.structure == other.structure
             && self.initial == other.initial
+            && self.along_y == other.along_y
             && self.contents == other.contents
     }
 

@@ -10,7 +10,7 @@ use slipstick::check::check;
 use slipstick::model::{InitialState, Model, Slider};
 use slipstick::response::{Demands, EventKind, Response};
 use slipstick::slider::{Friction, RateCurve, RateLaw};
-use slipstick::solver::exact;
+use slipstick::solver::{Prepared, PreparedMotion, exact};
 
 /// Every figure of resultants over the peak of its kind.
 fn differences(a: &Demands, b: &Demands) -> Vec<(&'static str, f64)> {
@@ -283,6 +283,34 @@ fn nothing_along_y_gives_the_bits_of_one_direction() {
         assert_eq!(y.sliding_displacement_m, x.sliding_displacement_m);
         assert_eq!(in_plane.events.len(), own.len());
     }
+}
+
+/// Models that share what is linear, and that do not: each has the bits of an analysis of its own, though it comes after
+/// another.
+#[test]
+fn a_prepared_model_gives_way_to_others() {
+    let mut differ = 0;
+    for seed in 0..8 {
+        let mut system = System::random(seed, false);
+        let motion = PreparedMotion::new(system.motion());
+        let mut prepared = Prepared::new(system.model(), motion.dt_s());
+        let first = prepared.demands(&motion).expect("a response").demands;
+        for change in 0..3 {
+            match change {
+                0 => system.friction = system.friction.map(|mu| 0.8 * mu),
+                1 => system.stiffnesses[1].iter_mut().for_each(|k| *k *= 1.2),
+                _ => system.damping[1] *= 1.1,
+            }
+            let model = system.model();
+            let own = exact(&model, &system.motion()).expect("a response");
+            prepared = prepared.with_model(model);
+            let shared = prepared.demands(&motion).expect("a response");
+            assert_eq!(shared.demands, own.demands, "seed {seed}, change {change}");
+            assert_eq!(shared.events, own.events, "seed {seed}, change {change}");
+            differ += usize::from(shared.demands != first);
+        }
+    }
+    assert!(differ > 16, "{differ}");
 }
 
 /// No difference in any figure.

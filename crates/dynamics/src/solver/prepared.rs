@@ -239,7 +239,7 @@ fn solve(
 ) -> Result<Response, SolveError> {
     match motion.horizontal_y_m_per_s2() {
         None => solve_along_x(instructions, model, tables, (motion, sampling), how, workspace),
-        Some(y) => solve_in_plane(instructions, model, (motion, sampling, y), how),
+        Some(y) => solve_in_plane(instructions, model, tables, (motion, sampling, y), how),
     }
 }
 
@@ -247,10 +247,11 @@ fn solve(
 fn solve_in_plane(
     instructions: InstructionSet,
     model: &Model,
+    tables: &Tables,
     (motion, sampling, y): (&GroundMotion, &Sampling, &[f64]),
     (with_history, go_on): (bool, GoOn<'_>),
 ) -> Result<Response, SolveError> {
-    let system = plane::System::new(model)?;
+    let system = tables.in_plane(model)?;
     let varying: Option<Vec<f64>> = varying_normal(model, motion).map(Iterator::collect);
     let normal = Normal::new(model, varying.as_deref());
     let ground = level(motion, normal, sampling);

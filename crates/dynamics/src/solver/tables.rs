@@ -5,8 +5,9 @@ use std::sync::{Arc, OnceLock};
 
 use fearless_simd::prelude::*;
 
-use super::dense;
 use super::outputs::{self, Arms, Outputs};
+use super::{dense, plane};
+use crate::error::SolveError;
 use crate::linear::polynomial::DEGREE;
 use crate::linear::{
     BATCH, IntervalTables, MAX_RATE_STEP, Maps, Row, StoreyDamping, System, UnitResponses, orders,
@@ -39,6 +40,7 @@ pub(super) struct Tables {
     pub(super) start: Vec<f64>,
     /// For the way ahead of one storey or none.
     pub(super) dense: Option<Box<dense::Tables>>,
+    in_plane: OnceLock<plane::System>,
 }
 
 /// What tables of stick, or of slip under one restraint, are made of where they are first needed.
@@ -227,12 +229,25 @@ impl Tables {
             dense::Tables::new(simd, &free, shape, rows.each_ref().map(Vec::as_slice), dt_s)
         });
         let overturns = stick.arms.is_some();
-        let tables = Self { orders: stick.orders, stick, slip, overturns, slope, start, dense };
+        let (orders, in_plane) = (stick.orders, OnceLock::new());
+        let tables = Self { orders, stick, slip, overturns, slope, start, dense, in_plane };
         if is_tabled && tables.dense.is_none() {
             tables.stick.get().batch();
             tables.slip[0].get().batch();
         }
         tables
+    }
+
+    /// The system in two horizontal directions, under the friction of a model that these tables serve.
+    ///
+    /// # Errors
+    /// As [`plane::System::new`].
+    pub(super) fn in_plane(&self, model: &Model) -> Result<plane::System, SolveError> {
+        if let Some(system) = self.in_plane.get() {
+            return system.under_friction_of(model);
+        }
+        let system = plane::System::new(model)?;
+        Ok(self.in_plane.get_or_init(|| system).clone())
     }
 
     /// Whether the overturning moment is an output.
