@@ -100,8 +100,10 @@ pub(super) struct PlaneFrame<'a> {
     pub(super) along: Vec<Pair>,
     /// Points of a structure by its modes; `None` of a frame.
     pub(super) points: Option<Vec<PointOfModes>>,
-    /// Of each part of `q`, what of `K` and `C` is not 0 relative to the block: by which part, and both.
-    links: Vec<Vec<(usize, [f64; 2])>>,
+    /// `K` and `C` of `q`, and what a unit of each part of `q` and of `q̇` does to the block.
+    stiffness: Rows,
+    damping: Rows,
+    on_block: [Vec<Pair>; 2],
     /// Upper bounds on the fastest rate where the block rests and where it slides, in 1/s; of what is linear, and with
     /// what friction by speed and a spring that follows `N` add.
     pub(super) linear_rates: [f64; 2],
@@ -139,6 +141,7 @@ impl<'a> PlaneFrame<'a> {
                 }
             }
         }
+        let along = [[1.0, 0.0], [0.0, 1.0]].repeat(n);
         let [x, y] = &axes;
         let curvature_per_m = law.curvature_per_m();
         let added = libm::sqrt(normal / x.block_kg * curvature_per_m);
@@ -154,9 +157,11 @@ impl<'a> PlaneFrame<'a> {
             damper: x.damper,
             curvature_per_m,
             masses_kg: x.masses_kg.iter().flat_map(|mass| [*mass; 2]).collect(),
-            along: [[1.0, 0.0], [0.0, 1.0]].repeat(n),
             points: None,
-            links: links(width, [&stiffness, &damping]),
+            on_block: [&stiffness, &damping].map(|rows| on_block(rows, &along)),
+            stiffness: Rows::new(width, &stiffness),
+            damping: Rows::new(width, &damping),
+            along,
             linear_rates: [fastest(Phase::Stick), fastest(Phase::Slip)],
             rates: [fastest(Phase::Stick), fastest(Phase::Slip) + added + by_speed],
             frequency: x.frame_frequency().max(y.frame_frequency()),
@@ -194,6 +199,7 @@ impl<'a> PlaneFrame<'a> {
         let omega = |i: usize| parts[i].frequency;
         let stiffness = rows(&|i| omega(i) * omega(i));
         let damping = rows(&|i| 2.0 * parts[i].damping_ratio * omega(i));
+        let along: Vec<Pair> = parts.iter().map(|part| part.along).collect();
         // Gershgorin's rows, as of a structure in one direction.
         let most = |of: &dyn Fn(usize) -> f64| (0..n).map(of).fold(0.0, f64::max);
         let sum = |rows: &[f64]| rows.iter().step_by(n + 1).sum::<f64>();
@@ -214,9 +220,11 @@ impl<'a> PlaneFrame<'a> {
             damper: slider.damper,
             curvature_per_m,
             masses_kg: parts.iter().map(|part| part.mass_kg).collect(),
-            along: parts.iter().map(|part| part.along).collect(),
             points: Some(PointOfModes::all(structure)),
-            links: links(n, [&stiffness, &damping]),
+            on_block: [&stiffness, &damping].map(|rows| on_block(rows, &along)),
+            stiffness: Rows::new(n, &stiffness),
+            damping: Rows::new(n, &damping),
+            along,
             linear_rates,
             rates: [linear_rates[0], linear_rates[1] + added],
             frequency,
@@ -282,29 +290,46 @@ impl<'a> PlaneFrame<'a> {
     ) -> Forces<N> {
         let mut base = [[0.0; N]; 2];
         for (i, floor) in floors.iter_mut().enumerate() {
-            let (mut elastic, mut viscous) = ([0.0; N], [0.0; N]);
-            for &(j, [k, c]) in &self.links[i] {
-                add(&mut elastic, k, &x[2 + j]);
-                add(&mut viscous, c, &v[2 + j]);
-            }
-            *floor = elastic;
-            add(floor, 1.0, &viscous);
+            *floor = self.stiffness.times(i, &x[2..]);
+            add(floor, 1.0, &self.damping.times(i, &v[2..]));
             (0..2).for_each(|axis| add(&mut base[axis], self.along[i][axis], floor));
         }
         let mut forces =
             Forces { base, spring: [[0.0; N]; 2], damper: [[0.0; N]; 2], push: [[0.0; N]; 2] };
         for at in 0..N {
-            let stiffness = self.spring + self.curvature_per_m * under.normal[at];
-            let a = self.body.carried(pair(&under.a, at));
+            let own = [[x[0][at], x[1][at]], [v[0][at], v[1][at]]];
+            let under = (pair(&under.a, at), under.normal[at]);
+            let [spring, damper, push] = self.driven(pair(&base, at), own, under);
             for axis in 0..2 {
-                let (spring, damper) = (stiffness * x[axis][at], self.damper * v[axis][at]);
-                let push = (base[axis][at] - spring - damper) / self.block_kg - a[axis];
-                forces.spring[axis][at] = spring;
-                forces.damper[axis][at] = damper;
-                forces.push[axis][at] = push;
+                forces.spring[axis][at] = spring[axis];
+                forces.damper[axis][at] = damper[axis];
+                forces.push[axis][at] = push[axis];
             }
         }
         forces
+    }
+
+    /// `K1 s + N s/R`, `C1 w` and `p` where the structure pulls.
+    #[inline(always)]
+    fn driven(&self, base: Pair, [s, w]: [Pair; 2], (a, normal): (Pair, f64)) -> [Pair; 3] {
+        let stiffness = self.spring + self.curvature_per_m * normal;
+        let (spring, damper) = (s.map(|s| stiffness * s), w.map(|w| self.damper * w));
+        let a = self.body.carried(a);
+        let push = [0, 1].map(|k| (base[k] - spring[k] - damper[k]) / self.block_kg - a[k]);
+        [spring, damper, push]
+    }
+
+    /// `p` alone.
+    pub(super) fn push(&self, x: &[f64], v: &[f64], loads: &Loads) -> Pair {
+        let mut base = [0.0; 2];
+        for (list, units) in [x, v].into_iter().zip(&self.on_block) {
+            for (value, unit) in list[2..].iter().zip(units) {
+                (0..2).for_each(|axis| base[axis] += unit[axis] * value);
+            }
+        }
+        let under = (loads.map(|load| load.a), loads[0].normal);
+        let [_, _, push] = self.driven(base, [[x[0], x[1]], [v[0], v[1]]], under);
+        push
     }
 
     /// The largest acceleration that the terms of `K q + C q̇` would give by their sizes, to a floor each and to the block
@@ -312,28 +337,12 @@ impl<'a> PlaneFrame<'a> {
     /// stiff storey meet.
     pub(super) fn largest_terms(&self, x: &[f64], v: &[f64]) -> f64 {
         let (mut most, mut of_block) = (0.0_f64, 0.0);
-        for (links, mass_kg) in self.links.iter().zip(&self.masses_kg) {
-            let sizes =
-                |&(j, [k, c]): &(usize, [f64; 2])| (k * x[2 + j]).abs() + (c * v[2 + j]).abs();
-            let terms: f64 = links.iter().map(sizes).sum();
+        for (i, mass_kg) in self.masses_kg.iter().enumerate() {
+            let terms = self.stiffness.sizes(i, &x[2..]) + self.damping.sizes(i, &v[2..]);
             most = most.max(terms / mass_kg);
             of_block += terms;
         }
         most.max(of_block * self.body.most_compliant() / self.block_kg)
-    }
-
-    /// `zᵀ K z` or `zᵀ C z`.
-    #[inline(always)]
-    fn form<const N: usize>(&self, of: usize, z: &[Column<N>]) -> Column<N> {
-        let mut sum = [0.0; N];
-        for (links, own) in self.links.iter().zip(z) {
-            let mut row = [0.0; N];
-            links.iter().for_each(|(j, kc)| add(&mut row, kc[of], &z[*j]));
-            for at in 0..N {
-                sum[at] += own[at] * row[at];
-            }
-        }
-        sum
     }
 
     /// Accelerations of all degrees, of the block over the table, under a table's acceleration and a force on the block
@@ -361,7 +370,7 @@ impl<'a> PlaneFrame<'a> {
     /// `C1 w² + q̇ᵀ C q̇`.
     #[inline(always)]
     pub(super) fn dissipation<const N: usize>(&self, v: &[Column<N>]) -> Column<N> {
-        let mut sum = self.form(1, &v[2..]);
+        let mut sum = self.damping.form(&v[2..]);
         for at in 0..N {
             sum[at] += self.damper * (v[0][at] * v[0][at] + v[1][at] * v[1][at]);
         }
@@ -370,7 +379,7 @@ impl<'a> PlaneFrame<'a> {
 
     /// `(K1 s² + qᵀ K q)/2`.
     pub(super) fn strain(&self, x: &[f64]) -> f64 {
-        let [form] = self.form(0, x[2..].as_chunks().0);
+        let [form] = self.stiffness.form(x[2..].as_chunks().0);
         0.5 * (self.spring * (x[0] * x[0] + x[1] * x[1]) + form)
     }
 
@@ -412,11 +421,45 @@ pub(super) fn add<const N: usize>(to: &mut Column<N>, factor: f64, column: &Colu
     }
 }
 
-/// What is not 0 in rows of `K` and `C`.
-fn links(n: usize, [stiffness, damping]: [&[f64]; 2]) -> Vec<Vec<(usize, [f64; 2])>> {
-    let of = |i: usize, j: usize| [stiffness[i * n + j], damping[i * n + j]];
-    let row = |i: usize| (0..n).map(|j| (j, of(i, j))).filter(|(_, kc)| *kc != [0.0; 2]).collect();
-    (0..n).map(row).collect()
+/// A square matrix: row by row what is not 0, and in which column.
+struct Rows(Vec<Vec<(usize, f64)>>);
+
+impl Rows {
+    fn new(n: usize, matrix: &[f64]) -> Self {
+        let row = |i: usize| (0..n).map(move |j| (j, matrix[i * n + j])).filter(|(_, c)| *c != 0.0);
+        Self((0..n).map(|i| row(i).collect()).collect())
+    }
+
+    /// A row times values at some instants.
+    #[inline(always)]
+    fn times<const N: usize>(&self, row: usize, z: &[Column<N>]) -> Column<N> {
+        let mut sum = [0.0; N];
+        self.0[row].iter().for_each(|(j, c)| add(&mut sum, *c, &z[*j]));
+        sum
+    }
+
+    /// The sizes of the terms of a row, together.
+    fn sizes(&self, row: usize, z: &[f64]) -> f64 {
+        self.0[row].iter().map(|(j, c)| (c * z[*j]).abs()).sum()
+    }
+
+    /// `zᵀ A z`.
+    #[inline(always)]
+    fn form<const N: usize>(&self, z: &[Column<N>]) -> Column<N> {
+        let mut sum = [0.0; N];
+        for (i, own) in z.iter().enumerate() {
+            let row = self.times(i, z);
+            (0..N).for_each(|at| sum[at] += own[at] * row[at]);
+        }
+        sum
+    }
+}
+
+/// What a unit of each part does to the block: the columns of a matrix, each part along its direction.
+fn on_block(matrix: &[f64], along: &[Pair]) -> Vec<Pair> {
+    let n = along.len();
+    let of = |j: usize, axis: usize| (0..n).map(|i| along[i][axis] * matrix[i * n + j]).sum();
+    (0..n).map(|j| [of(j, 0), of(j, 1)]).collect()
 }
 
 /// The matrix of a chain of springs or dampers from the block up, row by row.

@@ -7,6 +7,7 @@ use super::frame::{Loads, Pair, dot, norm, pair, unit};
 use super::judge::{Place, PlaneJudge};
 use super::step::{FINE, State, Step, Stretch, time_to_rest};
 use crate::error::Stopped;
+use crate::numerics::instructions::vectorize;
 use crate::response::Mode;
 
 /// Part of the peak speed of a slip below which it is near rest: where it is straight, rounding tells its direction.
@@ -337,8 +338,10 @@ impl<'a> PlaneJudge<'a> {
         for (fastest, v) in path.fastest.iter_mut().zip(v) {
             *fastest = v.iter().fold(*fastest, |fastest, v| fastest.max(v.abs()));
         }
-        step.raise_rates(frame, &mut path.rates);
-        let (momentum, dissipation) = (frame.momentum(v), frame.dissipation(v));
+        let (momentum, dissipation) = vectorize!(self.axes.stepper.instructions, _simd => {
+            step.raise_rates(frame, &mut path.rates);
+            (frame.momentum(v), frame.dissipation(v))
+        });
         for (node, weight) in rule.weights.iter().enumerate() {
             let (point, weight) = (1 + node, step_s * weight);
             let power = dot(pair(&momentum, point), pair(&under.a, point));

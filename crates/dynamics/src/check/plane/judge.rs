@@ -174,7 +174,7 @@ impl<'a> PlaneJudge<'a> {
 
     /// The push on the block in a state.
     pub(super) fn push(&self, state: &State, loads: &Loads) -> Pair {
-        pair(&self.acting(state, loads).forces.push, 0)
+        self.frame().push(&state.x, &state.v, loads)
     }
 
     /// Compares what is stored at a knot with the loads on one side of it: the accelerations of the table, the

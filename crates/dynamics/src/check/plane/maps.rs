@@ -26,6 +26,8 @@ type Points = Column<POINTS>;
 const MOST_RADIANS: f64 = 1.0;
 /// Most terms of a sum over a radian: the next is below rounding of what matrices that are not normal make of it.
 const TERMS: usize = 24;
+/// Most degrees of a group whose maps are kept.
+const MOST_MAPPED: usize = 28;
 /// Parts of a range over which Lagrange's polynomials are integrated, by Gauss's rule in each.
 const PANELS: usize = 4;
 
@@ -73,8 +75,8 @@ struct Group {
     degrees: Vec<usize>,
     /// Axes of the block among them, in that order.
     axes: Vec<usize>,
-    /// Of each degree, its acceleration by places in `y`: factors that are not 0.
-    rates: Vec<Vec<(usize, f64)>>,
+    /// Place by place in `y`, what a unit there accelerates of all degrees.
+    rates: Vec<Vec<f64>>,
     /// Accelerations of a unit of the table's along each axis.
     of_table: Vec<Vec<f64>>,
     /// `A^l B` of a unit force along each axis.
@@ -87,15 +89,20 @@ impl Group {
     }
 
     /// `A y`.
+    #[inline(always)]
     fn apply(&self, y: &[f64], to: &mut [f64]) {
-        let d = self.degrees.len();
-        to[..d].copy_from_slice(&y[d..]);
-        for (to, row) in to[d..].iter_mut().zip(&self.rates) {
-            *to = row.iter().map(|(place, factor)| factor * y[*place]).sum();
+        let (to_x, to_v) = to.split_at_mut(self.degrees.len());
+        to_x.copy_from_slice(&y[to_x.len()..]);
+        to_v.fill(0.0);
+        for (value, rates) in y.iter().zip(&self.rates) {
+            if *value != 0.0 {
+                to_v.iter_mut().zip(rates).for_each(|(to, rate)| *to += rate * value);
+            }
         }
     }
 
     /// `g_l` of a motion under a table's acceleration and its slope, for so many terms.
+    #[inline(always)]
     fn derivatives(&self, y: &[f64], loads: [Pair; 2], terms: usize, all: &mut Vec<f64>) {
         let (m, d) = (self.size(), self.degrees.len());
         all.clear();
@@ -103,7 +110,7 @@ impl Group {
         all.resize(terms * m, 0.0);
         for l in 1..terms {
             let (known, next) = all.split_at_mut(l * m);
-            self.apply(&known[(l - 1) * m..], &mut next[..m]);
+            self.apply(&known[(l - 1) * m..][..m], &mut next[..m]);
             let Some(load) = loads.get(l - 1) else { continue };
             for (axis, rates) in self.axes.iter().zip(&self.of_table) {
                 for (to, rate) in next[d..m].iter_mut().zip(rates) {
@@ -223,21 +230,17 @@ impl Linear {
             };
             let none = vec![0.0; d];
             let n = degrees.len();
-            let mut rates = vec![Vec::new(); n];
-            for place in 0..2 * n {
-                let one = unit(degrees[place % n]);
-                let [x, v] = if place < n { [&one, &none] } else { [&none, &one] };
-                let column = frame.accelerations([x, v], [[0.0; 2]; 2], slips);
-                for (row, degree) in rates.iter_mut().zip(&degrees) {
-                    if column[*degree] != 0.0 {
-                        row.push((place, column[*degree]));
-                    }
-                }
-            }
-            let of_loads = |a: Pair, force: Pair| -> Vec<f64> {
-                let whole = frame.accelerations([&none, &none], [a, force], slips);
+            let of = |state: [&[f64]; 2], loads: [Pair; 2]| -> Vec<f64> {
+                let whole = frame.accelerations(state, loads, slips);
                 degrees.iter().map(|degree| whole[*degree]).collect()
             };
+            let rates = (0..2 * n).map(|place| {
+                let one = unit(degrees[place % n]);
+                let state = if place < n { [&*one, &*none] } else { [&*none, &*one] };
+                of(state, [[0.0; 2]; 2])
+            });
+            let rates = rates.collect();
+            let of_loads = |a: Pair, force: Pair| of([&none, &none], [a, force]);
             let along = |axis: usize| [0, 1].map(|other| if other == axis { 1.0 } else { 0.0 });
             let of_table = axes.iter().map(|axis| of_loads(along(*axis), [0.0; 2])).collect();
             let starts: Vec<Vec<f64>> =
@@ -261,8 +264,11 @@ impl Linear {
         Self { groups: groups.collect(), rate, maps: None }
     }
 
-    /// Keeps the maps of a step of a length.
+    /// Keeps the maps of a step of a length; not of so many degrees that the sums are faster than maps that large.
     pub(super) fn keep(&mut self, step_s: f64) {
+        if self.groups.iter().any(|group| group.degrees.len() > MOST_MAPPED) {
+            return;
+        }
         let terms = terms(self.rate * step_s);
         let mut maps = Maps {
             step_s,
