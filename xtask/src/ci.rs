@@ -62,21 +62,14 @@ const RELEASE: &[(&str, Step)] =
 const NIGHTLY: &[(&str, Step)] =
     &[("tests that take minutes, coverage of intervals", testing::long), ("fuzzing", fuzzing)];
 
-/// `cargo xtask ci`; with words the steps that have one of them in their names.
+/// `cargo xtask ci`.
 pub fn ci(words: &[&str]) -> ExitCode {
-    let asked = |name: &str| words.is_empty() || words.iter().any(|word| name.contains(word));
-    let steps: Vec<_> = STEPS.iter().filter(|(name, _)| asked(name)).copied().collect();
-    if steps.is_empty() {
-        let names: Vec<&str> = STEPS.iter().map(|(name, _)| *name).collect();
-        eprintln!("ci: expected a word of {}, found {}", names.join(", "), words.join(" "));
-        return ExitCode::FAILURE;
-    }
-    all_of(&steps)
+    asked("ci", STEPS, words)
 }
 
 /// `cargo xtask release-check`: wheel, page and binary are built as a release has them, and tested.
-pub fn release_check() -> ExitCode {
-    all_of(RELEASE)
+pub fn release_check(words: &[&str]) -> ExitCode {
+    asked("release-check", RELEASE, words)
 }
 
 /// `cargo xtask nightly`.
@@ -87,6 +80,18 @@ pub fn nightly() -> ExitCode {
 /// Every fuzz target for ten minutes.
 fn fuzzing(_: &mut Tally) -> Result<(), Problem> {
     Ok(tools::fuzz(&["--seconds", "600"])?)
+}
+
+/// Runs all steps of a task; with words those that have one of them in their names.
+fn asked(task: &str, steps: &[(&str, Step)], words: &[&str]) -> ExitCode {
+    let asked = |name: &str| words.is_empty() || words.iter().any(|word| name.contains(word));
+    let asked: Vec<_> = steps.iter().filter(|(name, _)| asked(name)).copied().collect();
+    if asked.is_empty() {
+        let names: Vec<&str> = steps.iter().map(|(name, _)| *name).collect();
+        eprintln!("{task}: expected a word of {}, found {}", names.join(", "), words.join(" "));
+        return ExitCode::FAILURE;
+    }
+    all_of(&asked)
 }
 
 /// Runs every step; the last line is `N passed, N failed, N skipped`.

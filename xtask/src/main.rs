@@ -24,7 +24,7 @@ Usage: cargo xtask TASK
                                  (WORD: the steps with one of these words in their names)
   nightly                        the tests that take minutes, coverage of intervals, every fuzz
                                  target for ten minutes (installs cargo-fuzz)
-  release-check                  page, binary and wheel built as a release has them, and tested
+  release-check [WORD...]        page, binary and wheel built as a release has them, and tested
   bench-build [WORD...] [--write]
                                  times a fresh clone: first answer, a change of the solver, tests,
                                  pip install, ci (WORD: those with one of these words in their
@@ -91,7 +91,7 @@ fn main() -> ExitCode {
     let outcome = match words.as_slice() {
         ["ci", words @ ..] => return ci::ci(words),
         ["nightly"] => return ci::nightly(),
-        ["release-check"] => return ci::release_check(),
+        ["release-check", words @ ..] => return ci::release_check(words),
         ["bench-build", options @ ..] => building::bench_build(options),
         ["reference", options @ ..] => reference::reference(options),
         ["console", options @ ..] => console::console(options),
