@@ -592,12 +592,15 @@ fn rest_with_devices_passes() {
 /// Released beyond the gap of an elastic stop at rest: its strain is all the energy there is.
 #[test]
 fn release_from_elastic_stop_passes() {
-    for (damper_n_s_per_m, mass_kg) in [(0.0, 100.0), (300.0, 100.0), (1e5, 0.1)] {
+    // The last is a million times as fast as the time over which the stop lets go.
+    for (damper_n_s_per_m, mass_kg, end_s) in
+        [(0.0, 100.0, 1.0), (300.0, 100.0, 1.0), (1e5, 0.1, 0.1)]
+    {
         let stop = Stop::elastic([Some(0.1); 2], 1e5, damper_n_s_per_m);
         let slider = Slider { ends: stop.into(), ..slider(coulomb([0.1; 2], [0.1; 2])) };
         let initial = InitialState { sliding_displacement_m: 0.12, ..InitialState::rest() };
         let model = Model::new(block(mass_kg), slider, Frame::none(), G, initial).unwrap();
-        certified("released from a stop", model, &[[0.0; 3], [1.0, 0.0, 0.0]]);
+        certified("released from a stop", model, &[[0.0; 3], [end_s, 0.0, 0.0]]);
     }
 }
 

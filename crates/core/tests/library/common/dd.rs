@@ -18,6 +18,7 @@ pub const ZERO: Dd = Dd { hi: 0.0, lo: 0.0 };
 pub const ONE: Dd = Dd { hi: 1.0, lo: 0.0 };
 
 /// `a + b` and its rounding error.
+#[inline(always)]
 fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let s = a + b;
     let bb = s - a;
@@ -25,12 +26,14 @@ fn two_sum(a: f64, b: f64) -> (f64, f64) {
 }
 
 /// As [`two_sum`] where `|a| ≥ |b|`.
+#[inline(always)]
 fn quick_two_sum(a: f64, b: f64) -> Dd {
     let hi = a + b;
     Dd { hi, lo: b - (hi - a) }
 }
 
 /// A double as the sum of two with 26 bits each.
+#[inline(always)]
 fn split(a: f64) -> (f64, f64) {
     let c = 134_217_729.0 * a;
     let hi = c - (c - a);
@@ -38,6 +41,7 @@ fn split(a: f64) -> (f64, f64) {
 }
 
 /// `a b` and its rounding error.
+#[inline(always)]
 fn two_prod(a: f64, b: f64) -> (f64, f64) {
     let p = a * b;
     let ((ah, al), (bh, bl)) = (split(a), split(b));
@@ -74,6 +78,7 @@ impl From<f64> for Dd {
 
 impl Neg for Dd {
     type Output = Self;
+    #[inline(always)]
     fn neg(self) -> Self {
         Self { hi: -self.hi, lo: -self.lo }
     }
@@ -81,6 +86,7 @@ impl Neg for Dd {
 
 impl Add for Dd {
     type Output = Self;
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         let (s, e) = two_sum(self.hi, other.hi);
         let (t, f) = two_sum(self.lo, other.lo);
@@ -91,12 +97,14 @@ impl Add for Dd {
 
 impl Sub for Dd {
     type Output = Self;
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
         self + -other
     }
 }
 
 impl AddAssign for Dd {
+    #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
@@ -104,6 +112,7 @@ impl AddAssign for Dd {
 
 impl Mul for Dd {
     type Output = Self;
+    #[inline(always)]
     fn mul(self, other: Self) -> Self {
         let (p, e) = two_prod(self.hi, other.hi);
         quick_two_sum(p, e + (self.hi * other.lo + self.lo * other.hi))
@@ -112,6 +121,7 @@ impl Mul for Dd {
 
 impl Mul<f64> for Dd {
     type Output = Self;
+    #[inline(always)]
     fn mul(self, other: f64) -> Self {
         let (p, e) = two_prod(self.hi, other);
         quick_two_sum(p, e + self.lo * other)
@@ -120,6 +130,7 @@ impl Mul<f64> for Dd {
 
 impl Div for Dd {
     type Output = Self;
+    #[inline(always)]
     fn div(self, other: Self) -> Self {
         let first = self.hi / other.hi;
         let rest = self - other * first;
