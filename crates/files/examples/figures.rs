@@ -32,7 +32,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         command_line: "",
         display: DisplayUnits::Si,
     };
-    for figure in figures::all(&report).into_iter().filter(|f| SHOWN.contains(&f.id)) {
+    for figure in figures::all(&report).into_iter().filter(|f| SHOWN.contains(&f.id.as_str())) {
         let name = format!("book/src/figures/taft-{}.svg", figure.id);
         write_whole(Path::new(&name), figure.svg.as_str().as_bytes())?;
         println!("{name}");

@@ -258,6 +258,10 @@ impl OutputFolder {
         fill: impl FnOnce(&mut BufWriter<fs::File>) -> io::Result<()>,
     ) -> Result<(), FileError> {
         let target = self.path(name);
+        debug_assert!(
+            self.files.iter().all(|file| file.target != target),
+            "{name} is written twice: the first would be lost"
+        );
         refuse_inputs(&target, &self.inputs)?;
         self.files.push(Temporary::write(&target, fill)?);
         Ok(())

@@ -64,9 +64,9 @@ impl Assessment {
     }
 
     /// The figures as SVG by their names.
-    fn _figures(&self) -> Vec<(&'static str, String)> {
+    fn _figures(&self) -> Vec<(String, String)> {
         let figures = self.sheet.figures.iter();
-        figures.map(|figure| (figure.id, figure.svg.as_str().to_owned())).collect()
+        figures.map(|figure| (figure.id.clone(), figure.svg.as_str().to_owned())).collect()
     }
 
     /// What the command prints.

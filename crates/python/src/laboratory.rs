@@ -152,9 +152,12 @@ impl Comparison {
     }
 
     /// The figures as SVG by their names.
-    fn _figures(&self) -> Vec<(&'static str, String)> {
+    fn _figures(&self) -> Vec<(String, String)> {
         let figures = self.report(DisplayUnits::Si, |report| report.figures());
-        figures.into_iter().map(|figure| (figure.id, figure.svg.as_str().to_owned())).collect()
+        figures
+            .into_iter()
+            .map(|figure| (figure.id.clone(), figure.svg.as_str().to_owned()))
+            .collect()
     }
 
     fn _text(&self, py: Python<'_>, units: &str) -> PyResult<String> {
@@ -274,9 +277,9 @@ impl Identified {
     }
 
     /// The figures as SVG by their names.
-    fn _figures(&self) -> Vec<(&'static str, String)> {
+    fn _figures(&self) -> Vec<(String, String)> {
         let figures = self.sheet(DisplayUnits::Si).figures.into_iter();
-        figures.map(|figure| (figure.id, figure.svg.as_str().to_owned())).collect()
+        figures.map(|figure| (figure.id.clone(), figure.svg.as_str().to_owned())).collect()
     }
 
     fn _text(&self, py: Python<'_>, units: &str) -> PyResult<String> {

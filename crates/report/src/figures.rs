@@ -22,7 +22,7 @@ use crate::report::Report;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawn {
     /// Identifier in the page and stem for a file: `sliding-displacement`.
-    pub id: &'static str,
+    pub id: String,
     /// What to see in it, plain text.
     pub caption: String,
     /// The drawing.
@@ -35,7 +35,7 @@ impl Drawn {
     /// Draws a figure and puts its caption beside it.
     #[must_use]
     pub fn new(figure: Figure, caption: String) -> Self {
-        Self { id: figure.id, caption, svg: figure.to_svg(), figure }
+        Self { id: figure.id.clone(), caption, svg: figure.to_svg(), figure }
     }
 }
 

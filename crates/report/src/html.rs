@@ -156,7 +156,10 @@ pub(crate) fn figure_section(
 /// Figures with their captions, numbered from `first`.
 pub(crate) fn figure_list(out: &mut Markup, figures: &[Drawn], first: usize) {
     for (i, figure) in figures.iter().enumerate() {
-        out.raw("<figure").attribute("id", figure.id).raw(">\n<div>\n").append(figure.svg.markup());
+        out.raw("<figure")
+            .attribute("id", &figure.id)
+            .raw(">\n<div>\n")
+            .append(figure.svg.markup());
         out.raw("</div>\n<figcaption><strong>")
             .text(format!("Figure {}.", first + i))
             .raw("</strong> ")

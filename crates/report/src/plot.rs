@@ -161,7 +161,7 @@ pub enum Layout {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     /// Identifier in the page: letters, digits and hyphens.
-    pub id: &'static str,
+    pub id: String,
     /// One line for those who cannot see it.
     pub title: String,
     /// What it shows, in words.

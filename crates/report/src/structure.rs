@@ -173,7 +173,7 @@ impl ModalInfo<'_> {
                 let description = "Shapes of modes at the points, the lowest point first; full line along x, dashed \
                                    along y.";
                 Figure {
-                    id,
+                    id: id.to_owned(),
                     title,
                     description: description.to_owned(),
                     layout: Layout::Beside,

@@ -15,7 +15,7 @@ pub fn alive(drawn: &Drawn) -> Json {
         Layout::Square => "square",
     };
     Json::Object(vec![
-        ("id", figure.id.into()),
+        ("id", figure.id.as_str().into()),
         ("caption", drawn.caption.as_str().into()),
         ("title", figure.title.as_str().into()),
         ("layout", layout.into()),

@@ -182,7 +182,7 @@ impl JudgedRun<'_> {
 pub fn drawings(figures: &[figures::Drawn]) -> Json {
     let one = |figure: &figures::Drawn| {
         Json::Object(vec![
-            ("id", figure.id.into()),
+            ("id", figure.id.as_str().into()),
             ("caption", figure.caption.as_str().into()),
             ("svg", figure.svg.as_str().into()),
         ])

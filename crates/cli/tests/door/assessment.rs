@@ -129,6 +129,43 @@ fn spectrum_of_one_record_is_that_of_its_runs() {
     }
 }
 
+/// Whatever is asked for has its own curves, once: in the table, on the page, in a file.
+#[test]
+fn every_curve_of_a_spectrum_has_its_own_figure() {
+    let folder = suite("spectrum-figures", 1);
+    let mut arguments = vec!["spectrum", "model.toml", "--records", "records", "-q"];
+    arguments.extend(["--over", "slider.kinetic_friction=0.02,0.05", "--out", "out"]);
+    for key in [
+        "storey1_peak_displacement_m",
+        "storey1_peak_acceleration_m_per_s2",
+        "peak_base_shear_n",
+        "block.peak_acceleration_m_per_s2",
+        "peak_sliding_displacement_m",
+        "storey1_peak_displacement_m",
+    ] {
+        arguments.extend(["--demand", key]);
+    }
+    folder.stdout(&arguments);
+    let csv = folder.read("out/spectrum.csv");
+    let mut heads: Vec<&str> = csv.lines().next().expect("heads").split(',').collect();
+    let count = heads.len();
+    heads.sort_unstable();
+    heads.dedup();
+    assert_eq!(heads.len(), count, "{csv}");
+    // Four that are always told, three that are asked for besides, two ratios.
+    assert_eq!(heads.iter().filter(|head| head.ends_with("_p50")).count(), 9, "{heads:?}");
+    let page = folder.read("out/report.html");
+    let of_page: Vec<&str> = page.split("<figure id=\"").skip(1).collect();
+    let names = of_page.iter().map(|rest| rest.split('"').next().expect("an identifier"));
+    let mut pictures: Vec<String> = names.map(|name| format!("{name}.svg")).collect();
+    pictures.sort_unstable();
+    let mut files = folder.names("out");
+    files.retain(|name| name.ends_with(".svg"));
+    files.sort_unstable();
+    assert_eq!(pictures, files);
+    assert_eq!(files.len(), 9, "{files:?}");
+}
+
 #[test]
 fn isolator_period_sets_the_radius() {
     let folder = suite("isolator", 1);

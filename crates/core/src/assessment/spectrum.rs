@@ -16,7 +16,7 @@ use crate::response::{DemandColumn, Response, demand_values};
 use crate::study::cases::{Case, CaseRun, add_answers, status};
 use crate::study::certified::{Certified, same_bits};
 use crate::study::engine::Engine;
-use crate::study::{Demanded, Record};
+use crate::study::{Demanded, Record, SLIDING};
 use crate::table::Table;
 
 /// A friction that nothing overcomes: a million times what any motion on Earth asks.
@@ -123,8 +123,6 @@ pub struct SpectrumRun {
     pub curves: Vec<DemandCurves>,
     /// Intervals in which the median amplification of each group is above 1.
     pub windows: Vec<Vec<[f64; 2]>>,
-    /// The key whose intervals they are.
-    pub window_key: String,
     /// Runs without an answer.
     pub failures: Vec<FailedRun>,
     /// How many runs were certified. One that the check does not confirm is left out of the fractiles.
@@ -139,11 +137,51 @@ pub struct SpectrumRun {
     pub rows: Table,
 }
 
-/// Fractiles of one demand over the records.
+/// What a curve tells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CurveOf {
+    /// A demand.
+    Demand(DemandColumn),
+    /// This acceleration of a roof over the one of the same structure held to the table.
+    FixedBaseRatio(DemandColumn),
+    /// This acceleration, of a roof or of a block, over the peak of the table.
+    Amplification(DemandColumn),
+}
+
+impl CurveOf {
+    /// Its name in tables: the demand's, `storey3_fixed_base_ratio`, `block_amplification`.
+    #[must_use]
+    pub fn name(&self) -> String {
+        match self {
+            Self::Demand(demand) => demand.name(),
+            Self::FixedBaseRatio(of) => format!("{}_fixed_base_ratio", place(of)),
+            Self::Amplification(of) => format!("{}_amplification", place(of)),
+        }
+    }
+
+    /// The SI unit of its values; empty where they have none.
+    #[must_use]
+    pub fn unit(&self) -> &'static str {
+        match self {
+            Self::Demand(demand) => demand.unit(),
+            Self::FixedBaseRatio(_) | Self::Amplification(_) => "",
+        }
+    }
+}
+
+/// Where an acceleration is: `storey3`, `block`.
+fn place(of: &DemandColumn) -> String {
+    match of.demand.of.part() {
+        Some(part) => format!("{part}{}", of.part),
+        None => "block".to_owned(),
+    }
+}
+
+/// Fractiles of one demand, or of a ratio of two, over the records.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DemandCurves {
-    /// Name of the demand, or of a ratio of two.
-    pub key: String,
+    /// What they tell.
+    pub of: CurveOf,
     /// Fractiles of 16, 50 and 84 %, SI: group by group, one entry a value along the axis.
     pub fractiles: Vec<Vec<[f64; 3]>>,
     /// Curves of the single records, SI: group by group, record by record, one entry a value along
@@ -152,8 +190,10 @@ pub struct DemandCurves {
 }
 
 /// Demands that are always told, besides those of the roof.
-const TOLD: [&str; 3] =
-    ["peak_sliding_displacement_m", "residual_sliding_displacement_m", "sliding_path_m"];
+const TOLD: [&str; 3] = [SLIDING, RESIDUAL, "sliding_path_m"];
+
+/// The demand that is told without its sign.
+const RESIDUAL: &str = "residual_sliding_displacement_m";
 
 /// One run: its demands, and the peak of the table in m/s².
 struct Run {
@@ -190,12 +230,17 @@ pub fn run_spectrum(
         let found = "values that do not rise";
         return Err(refuse(&format!("over {}", axis.path), "values that rise", found));
     }
-    let roof = models.roof_acceleration();
-    let mut keys: Vec<String> = TOLD.iter().map(|key| (*key).to_owned()).collect();
-    keys.push(roof.clone());
-    keys.extend(request.demands.iter().filter(|key| !TOLD.contains(&key.as_str())).cloned());
-    keys.dedup();
-    let columns = keys.iter().map(|key| models.column(key)).collect::<Result<Vec<_>, _>>()?;
+    let shape = models.shape();
+    let roof = shape.roof_acceleration();
+    let columns = models.columns();
+    let mut told: Vec<(usize, DemandColumn)> = Vec::new();
+    let asked = request.demands.iter().map(String::as_str);
+    for name in TOLD.into_iter().chain([&*roof.name()]).chain(asked) {
+        let place = models.column(name)?;
+        if !told.iter().any(|(other, _)| *other == place) {
+            told.push((place, columns[place]));
+        }
+    }
     let factors = suite.scaled(request.scaling, engine)?.factors;
     let records = suite.records.len();
     let bounds = if request.bounds.is_empty() { &[Bound::NOMINAL][..] } else { request.bounds };
@@ -222,57 +267,50 @@ pub fn run_spectrum(
     let same =
         |run: &Run, response: &Response| same_bits(&run.demands, &demand_values(&response.demands));
     let certified = of_suite.certify(&mut runs, design, same, |case| in_words.case(case))?;
-    let fixed = match models.shape().storeys + models.shape().points {
-        0 => vec![f64::NAN; runs.len()],
-        _ => on_fixed_base(&parts, suite, &factors, engine)?,
-    };
-
-    let stem = roof
-        .trim_end_matches("_peak_acceleration_m_per_s2")
-        .trim_end_matches(".peak_acceleration_m_per_s2");
-    let ratio_keys = if models.shape().storeys + models.shape().points > 0 {
-        vec![format!("{stem}_fixed_base_ratio"), format!("{stem}_amplification")]
+    let has_structure = shape.storeys + shape.points > 0;
+    let fixed = if has_structure {
+        on_fixed_base(&parts, suite, &factors, engine)?
     } else {
-        vec![format!("{stem}_amplification")]
+        vec![f64::NAN; runs.len()]
     };
-    let roof_column = models.column(&roof)?;
+    let roof_place = models.column(&roof.name())?;
+    let ratios = [CurveOf::FixedBaseRatio(roof), CurveOf::Amplification(roof)];
+    let ratios = &ratios[usize::from(!has_structure)..];
     let nothing = f64::NAN;
-    let value = |i: usize, key: usize| -> f64 {
-        let Ok(run) = &runs[i].kept else {
-            let used_up_m = runs[i].travel_used_up_m();
-            let demand = keys.get(key).map(|key| Demanded::of(key, nothing, used_up_m));
-            return demand.map_or(nothing, Demanded::or_beyond);
-        };
-        if let Some(&column) = columns.get(key) {
-            let value = run.demands[column];
-            return if keys[key] == TOLD[1] { value.abs() } else { value };
-        }
-        let roof = run.demands[roof_column];
-        let over =
-            if ratio_keys[key - columns.len()].ends_with("ratio") { fixed[i] } else { run.table };
+    let ratio = |run: usize, of: &CurveOf| -> f64 {
+        let Ok(kept) = &runs[run].kept else { return nothing };
+        let roof = kept.demands[roof_place];
+        let over = if let CurveOf::FixedBaseRatio(_) = of { fixed[run] } else { kept.table };
         // 0/0: nothing moves, and nothing is amplified.
         if roof == 0.0 && over == 0.0 { 0.0 } else { roof / over }
     };
-    let all_keys: Vec<String> = keys.iter().chain(&ratio_keys).cloned().collect();
+    let of_demands = told.iter().map(|&(place, demand)| {
+        let name = demand.name();
+        let of = |ran: &CaseRun<Run>| match &ran.kept {
+            Ok(run) if name == RESIDUAL => run.demands[place].abs(),
+            Ok(run) => run.demands[place],
+            Err(_) => Demanded::of(&name, nothing, ran.travel_used_up_m()).or_beyond(),
+        };
+        (CurveOf::Demand(demand), runs.iter().map(of).collect())
+    });
+    let of_ratios =
+        ratios.iter().map(|of| (*of, (0..runs.len()).map(|run| ratio(run, of)).collect()));
+    let values: Vec<(CurveOf, Vec<f64>)> = of_demands.chain(of_ratios).collect();
     let (length, of_grid) = (axis.values.len(), grid.len() / axis.values.len());
     let group_count = bounds.len() * of_grid;
     let at = |group: usize, i: usize| (group * length + i) * records;
-    let curves: Vec<DemandCurves> = all_keys
+    let curves: Vec<DemandCurves> = values
         .iter()
-        .enumerate()
-        .map(|(k, key)| {
-            let of = |group: usize, i: usize| {
-                let from = at(group, i);
-                fractiles(&(from..from + records).map(|run| value(run, k)).collect::<Vec<_>>())
-            };
+        .map(|(curve, values)| {
+            let of = |group: usize, i: usize| fractiles(&values[at(group, i)..][..records]);
             let of_group = |group: usize| (0..length).map(|i| of(group, i)).collect();
             let finite = |value: f64| if value.is_finite() { value } else { nothing };
             let single = |group: usize, record: usize| -> Vec<f64> {
-                (0..length).map(|i| finite(value(at(group, i) + record, k))).collect()
+                (0..length).map(|i| finite(values[at(group, i) + record])).collect()
             };
             let singles = |group: usize| (0..records).map(|r| single(group, r)).collect();
             DemandCurves {
-                key: key.clone(),
+                of: *curve,
                 fractiles: (0..group_count).map(of_group).collect(),
                 singles: (0..group_count).map(singles).collect(),
             }
@@ -305,11 +343,10 @@ pub fn run_spectrum(
         }
     };
     coordinates(&mut table, 1);
-    let unit = |key: &str| DemandColumn::of_name(key).map_or("", |column| column.unit());
-    for of_key in &curves {
+    for DemandCurves { of, fractiles, .. } in &curves {
         for (i, share) in ["p16", "p50", "p84"].into_iter().enumerate() {
-            let cells = of_key.fractiles.iter().flatten().map(|f| f[i]).collect();
-            table.numbers(&format!("{}_{share}", of_key.key), unit(&of_key.key), cells);
+            let cells = fractiles.iter().flatten().map(|f| f[i]).collect();
+            table.numbers(&format!("{}_{share}", of.name()), of.unit(), cells);
         }
     }
     let mut rows = Table::default();
@@ -321,12 +358,12 @@ pub fn run_spectrum(
     rows.columns.extend(suite.intensities(request.scaling, &factors, &of_runs, engine)?.columns);
     rows.numbers("scale", "", of_runs.iter().map(|&record| factors[record]).collect());
     coordinates(&mut rows, records);
-    for (i, column) in models.columns().iter().enumerate() {
+    for (i, column) in columns.iter().enumerate() {
         let of = |ran: &CaseRun<Run>| ran.kept.as_ref().map_or(f64::NAN, |run| run.demands[i]);
         rows.numbers(&column.name(), column.unit(), runs.iter().map(of).collect());
     }
-    for (k, key) in ratio_keys.iter().enumerate() {
-        rows.numbers(key, "", (0..runs.len()).map(|run| value(run, columns.len() + k)).collect());
+    for (of, values) in &values[told.len()..] {
+        rows.numbers(&of.name(), of.unit(), values.clone());
     }
     add_answers(&mut rows, &runs, models.shape().surfaces > 0);
     rows.texts("status", runs.iter().map(|ran| status(ran.kept.as_ref().err())).collect());
@@ -340,7 +377,6 @@ pub fn run_spectrum(
             [] => Vec::new(),
             bounds => (0..group_count).map(|group| bounds[group / of_grid].name).collect(),
         },
-        window_key: all_keys.last().cloned().unwrap_or_default(),
         curves,
         windows,
         failures,

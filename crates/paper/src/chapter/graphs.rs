@@ -42,7 +42,7 @@ pub fn figure(
 ) -> Figure {
     let (title, description) = (title.into(), description.into());
     let panels = panels.into_iter().collect();
-    Figure { id, title, description, layout, panels, shaded: Vec::new() }
+    Figure { id: id.to_owned(), title, description, layout, panels, shaded: Vec::new() }
 }
 
 /// Storey displacement against amplitude, figures 9d and 10d.

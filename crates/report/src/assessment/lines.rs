@@ -99,24 +99,24 @@ pub fn clipped(points: &[[f64; 2]], [x_end, y_end]: [f64; 2]) -> Vec<[f64; 2]> {
 }
 
 /// A figure of one panel.
-pub fn single(id: &'static str, title: &str, caption: String, panel: Panel) -> Drawn {
+pub fn single(id: &str, title: &str, caption: String, panel: Panel) -> Drawn {
     stacked(id, title, caption, vec![panel])
 }
 
 /// A figure of panels one above the other.
-pub fn stacked(id: &'static str, title: &str, caption: String, panels: Vec<Panel>) -> Drawn {
+pub fn stacked(id: &str, title: &str, caption: String, panels: Vec<Panel>) -> Drawn {
     laid(Layout::Stacked, (id, title), caption, panels)
 }
 
 /// A figure of panels laid out in another way: its identifier and title, its caption.
 pub fn laid(
     layout: Layout,
-    (id, title): (&'static str, &str),
+    (id, title): (&str, &str),
     caption: String,
     panels: Vec<Panel>,
 ) -> Drawn {
     let (title, description, shaded) = (title.to_owned(), caption.clone(), Vec::new());
-    let figure = Figure { id, title, description, layout, panels, shaded };
+    let figure = Figure { id: id.to_owned(), title, description, layout, panels, shaded };
     Drawn::new(figure, caption)
 }
 

@@ -233,7 +233,7 @@ impl SensitivityReport<'_> {
             "{what}: what 1 % more of each key changes, in %; the strongest, {most}, on top."
         );
         let figure = Figure {
-            id,
+            id: id.to_owned(),
             title: format!("Sensitivity of the {}", what.to_lowercase()),
             description: caption.clone(),
             layout: Layout::Stacked,

@@ -1,6 +1,6 @@
 //! Sliding spectra and frequency response curves.
 
-use slipstick::assessment::spectrum::{DemandCurves, SpectrumRun};
+use slipstick::assessment::spectrum::{CurveOf, DemandCurves, SpectrumRun};
 use slipstick::notice::Notice;
 use slipstick::study::travel_used_up;
 
@@ -102,7 +102,7 @@ impl<'s> SpectrumReport<'s> {
             let least = finite.iter().copied().min_by(|a, b| a.0.total_cmp(&b.0))?;
             let most = finite.iter().copied().max_by(|a, b| a.0.total_cmp(&b.0))?;
             let median = if self.records.len() > 1 { "Median " } else { "" };
-            let what = title(&curves.key);
+            let what = title(&curves.of.name());
             let what = if median.is_empty() { what } else { what.to_lowercase() };
             let at = |x: f64| format!("{} {}", compact(x), self.run.unit).trim_end().to_owned();
             Some(format!(
@@ -133,7 +133,7 @@ impl<'s> SpectrumReport<'s> {
 
     fn unit_of(&self, curves: &DemandCurves) -> Unit {
         let largest = curves.fractiles.iter().flatten().map(|f| f[2]).filter(|v| v.is_finite());
-        self.display.unit(quantity(&curves.key), largest.fold(0.0, f64::max))
+        self.display.unit(quantity(&curves.of.name()), largest.fold(0.0, f64::max))
     }
 
     fn axis_label(&self) -> String {
@@ -146,7 +146,7 @@ impl<'s> SpectrumReport<'s> {
     /// Several groups: a table a demand with their medians.
     fn tables(&self) -> Vec<(String, Vec<Vec<String>>)> {
         let (single, many) = (self.records.len() == 1, self.groups().len() > 1);
-        let named = |curves: &DemandCurves| self.unit_of(curves).label(&title(&curves.key));
+        let named = |curves: &DemandCurves| self.unit_of(curves).label(&title(&curves.of.name()));
         let column = |head: String, curves, group, which| Column { head, curves, group, which };
         let tables: Vec<(String, Vec<Column>)> = if many {
             let of = |curves: &'s DemandCurves| {
@@ -197,7 +197,8 @@ impl<'s> SpectrumReport<'s> {
                 self.run.values.len()
             ));
         }
-        let key = &self.run.window_key;
+        let amplification = self.run.curves.last().map(|curves| title(&curves.of.name()));
+        let amplification = amplification.unwrap_or_default();
         for (name, windows) in self.groups().iter().zip(&self.run.windows) {
             let of = |[from, to]: &[f64; 2]| {
                 format!("{} to {} {}", cell(*from), cell(*to), self.run.unit)
@@ -206,7 +207,7 @@ impl<'s> SpectrumReport<'s> {
             let where_ =
                 if list.is_empty() { "nowhere in the range".to_owned() } else { list.join(", ") };
             let group = if name.is_empty() { String::new() } else { format!(" ({name})") };
-            notes.push(format!("{} is above 1{group}: {}.", title(key), where_.trim_end()));
+            notes.push(format!("{amplification} is above 1{group}: {}.", where_.trim_end()));
         }
         notes
     }
@@ -257,15 +258,13 @@ impl<'s> SpectrumReport<'s> {
             series.push(line(label, style, points(&of(group, 1))));
         }
         let values = series.iter().flat_map(|s| s.points.iter().map(|p| p[1])).collect::<Vec<_>>();
-        let ratio = curves.key.ends_with("_ratio") || curves.key.ends_with("amplification");
-        let limits = if ratio {
-            vec![Limit { value: 1.0, label: "1".to_owned(), style: Style::LIMIT }]
-        } else {
-            Vec::new()
+        let limits = match curves.of {
+            CurveOf::Demand(_) => Vec::new(),
+            _ => vec![Limit { value: 1.0, label: "1".to_owned(), style: Style::LIMIT }],
         };
-        let y_axis = Axis::from_zero(unit.label(&title(&curves.key)), values);
+        let what = title(&curves.of.name());
+        let y_axis = Axis::from_zero(unit.label(&what), values);
         let panel = Panel { limits, ..panel(x_axis, y_axis, 210.0, series) };
-        let what = title(&curves.key);
         let spread = match (single, many) {
             (true, _) => "",
             (false, true) => {
@@ -275,11 +274,14 @@ impl<'s> SpectrumReport<'s> {
                 " Thick line: median over the records; band: 16 to 84 %; thin lines: single records."
             }
         };
-        let id: &'static str = FIGURES
-            .iter()
-            .find(|(part, _)| curves.key.contains(part))
-            .map_or("spectrum", |(_, id)| id);
-        stacked(id, &what, format!("{what} over {}.{spread}", self.run.over), vec![panel])
+        let caption = format!("{what} over {}.{spread}", self.run.over);
+        let of_roof = match curves.of {
+            CurveOf::Demand(demand) => {
+                self.run.curves.iter().any(|other| other.of == CurveOf::Amplification(demand))
+            }
+            _ => true,
+        };
+        stacked(&figure_id(curves, of_roof), &what, caption, vec![panel])
     }
 
     fn method(&self) -> Vec<String> {
@@ -313,7 +315,7 @@ impl<'s> SpectrumReport<'s> {
             for (group, fractiles) in groups.iter().zip(&of_demand.fractiles) {
                 let pick = |i: usize| numbers(&fractiles.iter().map(|f| f[i]).collect::<Vec<_>>());
                 curves.push(Json::Object(vec![
-                    ("demand", of_demand.key.as_str().into()),
+                    ("demand", of_demand.of.name().as_str().into()),
                     ("group", group.as_str().into()),
                     ("p16", pick(0)),
                     ("p50", pick(1)),
@@ -321,9 +323,11 @@ impl<'s> SpectrumReport<'s> {
                 ]));
             }
         }
+        let amplification = self.run.curves.last().map(|curves| curves.of.name());
+        let amplification = amplification.unwrap_or_default();
         let window = |(group, windows): (&String, &Vec<[f64; 2]>)| {
             Json::Object(vec![
-                ("demand", self.run.window_key.as_str().into()),
+                ("demand", amplification.as_str().into()),
                 ("group", group.as_str().into()),
                 ("above_1", Json::List(windows.iter().map(|w| numbers(w)).collect())),
             ])
@@ -364,12 +368,18 @@ struct Column<'a> {
 /// The median among the three fractiles.
 const MEDIAN: usize = 1;
 
-/// Identifiers of figures by what the demand's key contains.
-const FIGURES: [(&str, &str); 6] = [
-    ("fixed_base_ratio", "fixed-base-ratio"),
-    ("amplification", "amplification"),
-    ("residual", "residual"),
-    ("path", "path"),
-    ("displacement", "displacement"),
-    ("acceleration", "acceleration"),
-];
+/// The identifier of a figure: a word for what is always told, the name of a demand that is asked for.
+fn figure_id(curves: &DemandCurves, of_roof: bool) -> String {
+    let word = match curves.of {
+        CurveOf::FixedBaseRatio(_) => "fixed-base-ratio",
+        CurveOf::Amplification(_) => "amplification",
+        CurveOf::Demand(demand) => match demand.name().as_str() {
+            "peak_sliding_displacement_m" => "displacement",
+            "residual_sliding_displacement_m" => "residual",
+            "sliding_path_m" => "path",
+            _ if of_roof => "acceleration",
+            name => return name.replace(['_', '.'], "-"),
+        },
+    };
+    word.to_owned()
+}

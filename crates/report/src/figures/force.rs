@@ -169,7 +169,7 @@ pub fn demand(scene: &Scene) -> Option<Drawn> {
          go. On grey it slides and T is the kinetic friction {kinetic}.{varies}"
     );
     let figure = Figure {
-        id: "demand",
+        id: "demand".to_owned(),
         title: "Friction force against its bounds over time".to_owned(),
         description: caption.clone(),
         layout: Layout::Stacked,

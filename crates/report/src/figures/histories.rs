@@ -67,7 +67,7 @@ pub fn sliding_displacement(scene: &Scene) -> Drawn {
         caption.push_str(" Shading and ringed peak: nominal friction.");
     }
     let figure = Figure {
-        id: "sliding-displacement",
+        id: "sliding-displacement".to_owned(),
         title: "Sliding displacement over time".to_owned(),
         description: format!("{caption} {}", panel.note),
         layout: Layout::Stacked,
@@ -197,7 +197,7 @@ pub(super) fn over_time(
     caption: String,
 ) -> Drawn {
     let figure = Figure {
-        id,
+        id: id.to_owned(),
         title: title.to_owned(),
         description: describe(&caption, &panels),
         layout: Layout::Stacked,

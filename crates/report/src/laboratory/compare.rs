@@ -296,7 +296,7 @@ impl CompareReport<'_> {
         let shaded = sliding(c);
         let of = |id: &'static str, title: &str, caption: String, panels: Vec<Panel>| {
             let figure = Figure {
-                id,
+                id: id.to_owned(),
                 title: title.to_owned(),
                 description: caption.clone(),
                 layout: Layout::Stacked,

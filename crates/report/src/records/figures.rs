@@ -72,7 +72,7 @@ impl Histories<'_> {
         let notes = panels.iter().map(|panel| format!(" {}: {}.", panel.y.label, panel.note));
         let description = std::iter::once(caption.clone()).chain(notes).collect();
         let figure = Figure {
-            id: "histories",
+            id: "histories".to_owned(),
             title: "Acceleration, velocity, displacement and Arias intensity over time".to_owned(),
             description,
             layout: Layout::Stacked,

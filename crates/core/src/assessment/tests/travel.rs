@@ -131,8 +131,9 @@ fn spectra_put_used_up_travel_above_all() {
     let run = run_spectrum(&request, &Engine::unwatched()).unwrap();
     let ended = travel_used_up(&run.failures) / 2;
     assert!(ended > 1 && ended < 8, "{ended}");
-    let of =
-        |key: &str| &run.curves.iter().find(|curves| curves.key == key).unwrap().fractiles[0][0];
+    let of = |key: &str| {
+        &run.curves.iter().find(|curves| curves.of.name() == key).unwrap().fractiles[0][0]
+    };
     assert_eq!(of(DEMAND)[2], f64::INFINITY);
     assert!(of("block.peak_acceleration_m_per_s2").iter().all(|value| value.is_finite()));
 }
