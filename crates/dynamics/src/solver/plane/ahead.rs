@@ -150,6 +150,17 @@ impl Ahead {
             bends_at_points: at_points(),
         })
     }
+
+    /// What points do over a sample that begins with `η` and `g`.
+    #[inline(always)]
+    fn look_at_points(&mut self, system: &System, (eta, g): (&[f64], &[f64])) {
+        let [at_start, at_end] = &mut self.points;
+        if !self.is_known {
+            at_start.values(system, eta, g);
+        }
+        at_end.values(system, &self.eta, &self.g);
+        self.bends_at_points.bends(system, &self.bends);
+    }
 }
 
 /// Goes on through samples of a stick, as far as nothing is in doubt.
@@ -185,11 +196,6 @@ pub(super) fn run_ahead<'a>(
 impl Plane<'_> {
     /// Follows a sample of a stick; whether it is certain that nothing happens in it, no peak either.
     fn passes(&mut self, ahead: &mut Ahead, sample: usize) -> bool {
-        vectorize!(ahead.instructions, _simd => self.passes_here(ahead, sample))
-    }
-
-    #[inline(always)]
-    fn passes_here(&mut self, ahead: &mut Ahead, sample: usize) -> bool {
         let (system, state) = (&self.system, &self.state);
         let [from, to] = [sample, sample + 1].map(|i| {
             let normal_n = self.ground.normal_at(i);
@@ -228,12 +234,10 @@ impl Plane<'_> {
         {
             return false;
         }
-        let [at_start, at_end] = &mut ahead.points;
-        if !ahead.is_known {
-            at_start.values(system, &state.eta, g);
+        if system.points == 0 {
+            return true;
         }
-        at_end.values(system, &ahead.eta, &ahead.g);
-        ahead.bends_at_points.bends(system, &ahead.bends);
+        vectorize!(ahead.instructions, _simd => ahead.look_at_points(system, (&state.eta, g)));
         let tables = [from.0, to.0];
         self.peaks.hold_at_points(system, tables, &ahead.points, &ahead.bends_at_points)
     }
