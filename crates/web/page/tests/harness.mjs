@@ -57,7 +57,7 @@ export function browser() {
 export async function open(browser, url, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1300, height: 900 }, serviceWorkers: "block", ...options });
   const page = await context.newPage();
-  page.setDefaultTimeout(15000);
+  page.setDefaultTimeout(30_000);
   const said = [];
   page.on("console", (message) => {
     const text = message.text();
@@ -75,7 +75,7 @@ export async function open(browser, url, options = {}) {
 }
 
 /** Waits until what is shown is judged. */
-export function settled(page, timeout = 20000) {
+export function settled(page, timeout = 60_000) {
   return page.waitForFunction(
     () => {
       const app = globalThis.slipstick;
