@@ -244,6 +244,23 @@ fn friction_that_follows_the_speed_is_told() {
     assert!(said.contains("slider.kinetic_friction_force.rate cannot be determined: "), "{said}");
 }
 
+/// However many there are.
+#[test]
+fn every_cyclic_test_has_its_figure() {
+    let folder = Folder::new("cyclic-many");
+    let path = format!("{}/../../examples/laboratory/cyclic-1hz.csv", env!("CARGO_MANIFEST_DIR"));
+    let made = std::fs::read_to_string(path).unwrap();
+    let names: Vec<String> = (1..=10).map(|i| format!("test-{i}.csv")).collect();
+    names.iter().for_each(|name| folder.write(name, &made));
+    let mut arguments = vec!["identify", "cyclic", "--out", "out", "-q"];
+    arguments.extend(names.iter().map(String::as_str));
+    folder.stdout(&arguments);
+    let page = folder.read("out/report.html");
+    assert_eq!(page.matches("<figure id=\"loop-").count(), 10);
+    let files = folder.names("out");
+    assert!((1..=10).all(|i| files.contains(&format!("loop-{i}.svg"))), "{files:?}");
+}
+
 /// What is wrong with a cyclic test is said, of the file it is wrong with.
 #[test]
 fn what_is_suspicious_of_a_cyclic_test_is_said() {

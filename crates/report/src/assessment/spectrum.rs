@@ -266,12 +266,19 @@ impl<'s> SpectrumReport<'s> {
         let y_axis = Axis::from_zero(unit.label(&what), values);
         let panel = Panel { limits, ..panel(x_axis, y_axis, 210.0, series) };
         let spread = match (single, many) {
-            (true, _) => "",
+            (true, _) => String::new(),
             (false, true) => {
-                " Thick: median over the records; thin, in the same dashes: 16 and 84 %."
+                " Thick: median over the records; thin, in the same dashes: 16 and 84 %.".to_owned()
             }
             (false, false) => {
-                " Thick line: median over the records; band: 16 to 84 %; thin lines: single records."
+                let count = self.records.len();
+                let singles = match count > MOST_SINGLES {
+                    true => format!("the first {MOST_SINGLES} of {count} records"),
+                    false => "single records".to_owned(),
+                };
+                format!(
+                    " Thick line: median over the records; band: 16 to 84 %; thin lines: {singles}."
+                )
             }
         };
         let caption = format!("{what} over {}.{spread}", self.run.over);

@@ -254,16 +254,14 @@ pub fn by_speed(
     single("friction-by-speed", "Kinetic friction over sliding speed", caption, panel)
 }
 
-/// One figure a test, of eight at most: measured loops with the fitted strokes, and friction by
-/// cycle.
+/// One figure a test: measured loops with the fitted strokes, and friction by cycle.
 #[must_use]
 pub fn figures(tests: &[Test], display: DisplayUnits) -> Vec<Drawn> {
-    const IDS: [&str; 8] =
-        ["loop-1", "loop-2", "loop-3", "loop-4", "loop-5", "loop-6", "loop-7", "loop-8"];
-    tests.iter().zip(IDS).map(|(test, id)| figure(test, id, display)).collect()
+    let of = |(i, test): (usize, &Test)| figure(test, &format!("loop-{}", i + 1), display);
+    tests.iter().enumerate().map(of).collect()
 }
 
-fn figure(test: &Test, id: &'static str, display: DisplayUnits) -> Drawn {
+fn figure(test: &Test, id: &str, display: DisplayUnits) -> Drawn {
     let largest = |values: &[f64]| values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let x = display.unit(Quantity::Length, largest(test.displacement_m));
     let y = display.unit(Quantity::Force, largest(test.force_n));
