@@ -166,6 +166,35 @@ fn every_curve_of_a_spectrum_has_its_own_figure() {
     assert_eq!(files.len(), 9, "{files:?}");
 }
 
+/// Whatever is asked for is told, once, however much it is.
+#[test]
+fn every_demand_of_a_sensitivity_is_told() {
+    let folder = suite("sensitivity-demands", 1);
+    let mut arguments = vec!["sensitivity", "model.toml", "--records", "records", "--out", "out"];
+    arguments.extend(["--paths", "slider.kinetic_friction", "-q"]);
+    let keys = [
+        "peak_base_shear_n",
+        "peak_sliding_displacement_m",
+        "sliding_path_m",
+        "storey1_peak_displacement_m",
+        "sliding_time_s",
+        "block.peak_acceleration_m_per_s2",
+    ];
+    for key in keys.iter().chain(&keys[..1]) {
+        arguments.extend(["--demand", key]);
+    }
+    let text = folder.stdout(&arguments);
+    let titles = ["Peak base shear", "Sliding path", "Storey 1 peak displacement", "Sliding time"];
+    for title in titles {
+        assert_eq!(text.matches(&format!("\n{title}\n")).count(), 1, "{title}: {text}");
+    }
+    let csv = folder.read("out/sensitivity.csv");
+    assert_eq!(csv.lines().count(), 1 + keys.len(), "{csv}");
+    let page = folder.read("out/report.html");
+    let pictures = folder.names("out").iter().filter(|name| name.ends_with(".svg")).count();
+    assert_eq!((page.matches("<figure id=\"tornado").count(), pictures), (6, 6));
+}
+
 #[test]
 fn isolator_period_sets_the_radius() {
     let folder = suite("isolator", 1);

@@ -142,6 +142,8 @@ pub struct DerivativeRun {
     pub keys: Vec<Key>,
     /// The demands.
     pub demands: Vec<DemandColumn>,
+    /// Whether these were asked for, and are not simply all.
+    pub are_asked_for: bool,
     /// The records.
     pub records: Vec<OfRecord>,
     /// Record by record, key by key, demand by demand.
@@ -293,10 +295,21 @@ pub fn run_derivatives(
     let answered = bases.iter().flat_map(|base| &base.kept);
     let warnings = answered.flat_map(|base| base.noticed.iter().cloned()).collect();
     let runs = analyses.iter().sum();
-    Ok(DerivativeRun { keys, demands, records, derivatives, failures, warnings, runs, table })
+    let are_asked_for = !request.demands.is_empty();
+    Ok(DerivativeRun {
+        keys,
+        demands,
+        are_asked_for,
+        records,
+        derivatives,
+        failures,
+        warnings,
+        runs,
+        table,
+    })
 }
 
-/// The demands that are wanted, by their places among all.
+/// The demands that are wanted, by their places among all, each once.
 fn columns(request: &DerivativeRequest<'_>) -> Result<Vec<usize>, AssessmentError> {
     let all = request.models.columns();
     let in_plane = request.suite.in_plane();
@@ -317,7 +330,14 @@ fn columns(request: &DerivativeRequest<'_>) -> Result<Vec<usize>, AssessmentErro
             }
         }
     };
-    request.demands.iter().map(place).collect()
+    let mut places = Vec::new();
+    for key in request.demands {
+        let place = place(key)?;
+        if !places.contains(&place) {
+            places.push(place);
+        }
+    }
+    Ok(places)
 }
 
 /// The model as it stands on a record, judged.

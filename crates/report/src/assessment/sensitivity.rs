@@ -17,8 +17,8 @@ use crate::plot::{Axis, Figure, Layout, Series, Shape, Style};
 const FIRST: [&str; 3] =
     ["peak_sliding_displacement_m", "residual_sliding_displacement_m", "sliding_path_m"];
 
-/// Identifiers of the figures.
-const FIGURES: [&str; 4] = ["tornado", "tornado-2", "tornado-3", "tornado-4"];
+/// Most demands that are all told where none is asked for.
+const MOST_TOLD: usize = 4;
 
 /// Bars of a key that makes a demand larger, and smaller.
 const BARS: [&str; 2] = ["#8fa8c4", "#d9a98a"];
@@ -61,7 +61,10 @@ impl SensitivityReport<'_> {
             Notice::new(NoticeKind::CheckFailed, message)
         });
         let shown = self.shown();
-        let figures = shown.iter().zip(FIGURES).filter_map(|(demand, id)| self.figure(*demand, id));
+        let figures = shown.iter().enumerate().filter_map(|(i, demand)| {
+            let number = if i == 0 { String::new() } else { format!("-{}", i + 1) };
+            self.figure(*demand, &format!("tornado{number}"))
+        });
         Sheet {
             kind: "Sensitivity",
             name: self.name.to_owned(),
@@ -100,10 +103,10 @@ impl SensitivityReport<'_> {
         self.run.keys.iter().enumerate().map(of_key).collect()
     }
 
-    /// Demands that are told in tables and figures.
+    /// Demands that are told in tables and figures: those that are asked for, else the first.
     fn shown(&self) -> Vec<usize> {
         let demands = &self.run.demands;
-        if demands.len() <= FIGURES.len() {
+        if self.run.are_asked_for || demands.len() <= MOST_TOLD {
             return (0..demands.len()).collect();
         }
         let place = |name: &str| demands.iter().position(|demand| demand.name() == name);
@@ -206,7 +209,7 @@ impl SensitivityReport<'_> {
     }
 
     /// Bars of the relative changes, the longest on top.
-    fn figure(&self, demand: usize, id: &'static str) -> Option<Drawn> {
+    fn figure(&self, demand: usize, id: &str) -> Option<Drawn> {
         let mut ranked = self.ranked(demand);
         ranked.truncate(20);
         ranked.reverse();
