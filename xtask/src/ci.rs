@@ -85,13 +85,13 @@ fn fuzzing(_: &mut Tally) -> Result<(), Problem> {
 /// Runs all steps of a task; with words those that have one of them in their names.
 fn asked(task: &str, steps: &[(&str, Step)], words: &[&str]) -> ExitCode {
     let asked = |name: &str| words.is_empty() || words.iter().any(|word| name.contains(word));
-    let asked: Vec<_> = steps.iter().filter(|(name, _)| asked(name)).copied().collect();
-    if asked.is_empty() {
+    let chosen: Vec<_> = steps.iter().filter(|(name, _)| asked(name)).copied().collect();
+    if chosen.is_empty() {
         let names: Vec<&str> = steps.iter().map(|(name, _)| *name).collect();
         eprintln!("{task}: expected a word of {}, found {}", names.join(", "), words.join(" "));
         return ExitCode::FAILURE;
     }
-    all_of(&asked)
+    all_of(&chosen)
 }
 
 /// Runs every step; the last line is `N passed, N failed, N skipped`.

@@ -154,10 +154,7 @@ impl Comparison {
     /// The figures as SVG by their names.
     fn _figures(&self) -> Vec<(String, String)> {
         let figures = self.report(DisplayUnits::Si, |report| report.figures());
-        figures
-            .into_iter()
-            .map(|figure| (figure.id.clone(), figure.svg.as_str().to_owned()))
-            .collect()
+        figures.into_iter().map(|figure| (figure.id, figure.svg.as_str().to_owned())).collect()
     }
 
     fn _text(&self, py: Python<'_>, units: &str) -> PyResult<String> {
@@ -279,7 +276,7 @@ impl Identified {
     /// The figures as SVG by their names.
     fn _figures(&self) -> Vec<(String, String)> {
         let figures = self.sheet(DisplayUnits::Si).figures.into_iter();
-        figures.map(|figure| (figure.id.clone(), figure.svg.as_str().to_owned())).collect()
+        figures.map(|figure| (figure.id, figure.svg.as_str().to_owned())).collect()
     }
 
     fn _text(&self, py: Python<'_>, units: &str) -> PyResult<String> {

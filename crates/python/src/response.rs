@@ -327,7 +327,7 @@ impl Response {
 
     /// The figures of the report as SVG by their names.
     fn _figures(&self) -> PyResult<Vec<(String, String)>> {
-        let svg = |figure: Drawn| (figure.id.clone(), figure.svg.as_str().to_owned());
+        let svg = |figure: Drawn| (figure.id, figure.svg.as_str().to_owned());
         self.report(DisplayUnits::Si, |report| figures::all(report).into_iter().map(svg).collect())
     }
 

@@ -268,11 +268,8 @@ pub fn run_spectrum(
         |run: &Run, response: &Response| same_bits(&run.demands, &demand_values(&response.demands));
     let certified = of_suite.certify(&mut runs, design, same, |case| in_words.case(case))?;
     let has_structure = shape.storeys + shape.points > 0;
-    let fixed = if has_structure {
-        on_fixed_base(&parts, suite, &factors, engine)?
-    } else {
-        vec![f64::NAN; runs.len()]
-    };
+    let fixed =
+        if has_structure { on_fixed_base(&parts, suite, &factors, engine)? } else { Vec::new() };
     let roof_place = models.column(&roof.name())?;
     let ratios = [CurveOf::FixedBaseRatio(roof), CurveOf::Amplification(roof)];
     let ratios = &ratios[usize::from(!has_structure)..];

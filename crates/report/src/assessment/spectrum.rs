@@ -197,8 +197,7 @@ impl<'s> SpectrumReport<'s> {
                 self.run.values.len()
             ));
         }
-        let amplification = self.run.curves.last().map(|curves| title(&curves.of.name()));
-        let amplification = amplification.unwrap_or_default();
+        let amplification = title(&self.amplification());
         for (name, windows) in self.groups().iter().zip(&self.run.windows) {
             let of = |[from, to]: &[f64; 2]| {
                 format!("{} to {} {}", cell(*from), cell(*to), self.run.unit)
@@ -282,13 +281,30 @@ impl<'s> SpectrumReport<'s> {
             }
         };
         let caption = format!("{what} over {}.{spread}", self.run.over);
-        let of_roof = match curves.of {
-            CurveOf::Demand(demand) => {
-                self.run.curves.iter().any(|other| other.of == CurveOf::Amplification(demand))
-            }
-            _ => true,
+        stacked(&self.figure_id(curves), &what, caption, vec![panel])
+    }
+
+    /// The identifier of a figure: a word for what is always told, the name of a demand that is asked for.
+    fn figure_id(&self, curves: &DemandCurves) -> String {
+        let is_of_roof =
+            |demand| self.run.curves.iter().any(|other| other.of == CurveOf::Amplification(demand));
+        let word = match curves.of {
+            CurveOf::FixedBaseRatio(_) => "fixed-base-ratio",
+            CurveOf::Amplification(_) => "amplification",
+            CurveOf::Demand(demand) => match demand.name().as_str() {
+                "peak_sliding_displacement_m" => "displacement",
+                "residual_sliding_displacement_m" => "residual",
+                "sliding_path_m" => "path",
+                _ if is_of_roof(demand) => "acceleration",
+                name => return name.replace(['_', '.'], "-"),
+            },
         };
-        stacked(&figure_id(curves, of_roof), &what, caption, vec![panel])
+        word.to_owned()
+    }
+
+    /// The name of the curve whose windows above 1 are told: the last.
+    fn amplification(&self) -> String {
+        self.run.curves.last().map(|curves| curves.of.name()).unwrap_or_default()
     }
 
     fn method(&self) -> Vec<String> {
@@ -330,8 +346,7 @@ impl<'s> SpectrumReport<'s> {
                 ]));
             }
         }
-        let amplification = self.run.curves.last().map(|curves| curves.of.name());
-        let amplification = amplification.unwrap_or_default();
+        let amplification = self.amplification();
         let window = |(group, windows): (&String, &Vec<[f64; 2]>)| {
             Json::Object(vec![
                 ("demand", amplification.as_str().into()),
@@ -374,19 +389,3 @@ struct Column<'a> {
 
 /// The median among the three fractiles.
 const MEDIAN: usize = 1;
-
-/// The identifier of a figure: a word for what is always told, the name of a demand that is asked for.
-fn figure_id(curves: &DemandCurves, of_roof: bool) -> String {
-    let word = match curves.of {
-        CurveOf::FixedBaseRatio(_) => "fixed-base-ratio",
-        CurveOf::Amplification(_) => "amplification",
-        CurveOf::Demand(demand) => match demand.name().as_str() {
-            "peak_sliding_displacement_m" => "displacement",
-            "residual_sliding_displacement_m" => "residual",
-            "sliding_path_m" => "path",
-            _ if of_roof => "acceleration",
-            name => return name.replace(['_', '.'], "-"),
-        },
-    };
-    word.to_owned()
-}

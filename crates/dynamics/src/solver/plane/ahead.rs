@@ -12,7 +12,7 @@
 
 use super::Plane;
 use super::peaks::StickEnd;
-use super::rows::{AtPoints, size_of_sum};
+use super::rows::{PointsBetween, size_of_sum};
 use super::system::System;
 use super::vector::{inner, norm};
 use crate::error::SolveError;
@@ -39,11 +39,9 @@ pub(super) struct Ahead {
     eta: Vec<f64>,
     rate: Vec<f64>,
     g: Vec<f64>,
-    /// What points do at the start of a sample, which is known after another, and at its end, and how far they depart from
-    /// their chords at most.
-    points: [AtPoints; 2],
+    points: PointsBetween,
+    /// Whether it is known what points do at the start: after another sample.
     is_known: bool,
-    bends_at_points: AtPoints,
 }
 
 /// The map of a mode over a sample, of `(η, η̇)`, of the load `−L·a` at its start and of the rate of that.
@@ -136,7 +134,6 @@ impl Ahead {
         let step_s = step_s.filter(|_| omega2.iter().all(|omega2| *omega2 > 0.0))?;
         let modes = omega2.iter().zip(damping).map(|(o, d)| Map::new(step_s, *o, *d)).collect();
         let list = || vec![0.0; omega2.len()];
-        let at_points = || AtPoints::new(system.points);
         Some(Self {
             instructions,
             step_s,
@@ -145,21 +142,16 @@ impl Ahead {
             eta: list(),
             rate: list(),
             g: list(),
-            points: [at_points(), at_points()],
+            points: PointsBetween::new(system.points),
             is_known: false,
-            bends_at_points: at_points(),
         })
     }
 
     /// What points do over a sample that begins with `η` and `g`.
     #[inline(always)]
     fn look_at_points(&mut self, system: &System, (eta, g): (&[f64], &[f64])) {
-        let [at_start, at_end] = &mut self.points;
-        if !self.is_known {
-            at_start.values(system, eta, g);
-        }
-        at_end.values(system, &self.eta, &self.g);
-        self.bends_at_points.bends(system, &self.bends);
+        let start = (!self.is_known).then_some([eta, g]);
+        self.points.follow(system, start, [&self.eta, &self.g], &self.bends);
     }
 }
 
@@ -182,7 +174,7 @@ pub(super) fn run_ahead<'a>(
         let state = &mut walk.phase.state;
         core::mem::swap(&mut state.eta, &mut ahead.eta);
         core::mem::swap(&mut state.rate, &mut ahead.rate);
-        ahead.points.swap(0, 1);
+        ahead.points.ends.swap(0, 1);
         ahead.is_known = true;
         walk.phase.scales.note(&walk.phase.state);
         walk.phase.least.interrupt();
@@ -238,8 +230,7 @@ impl Plane<'_> {
             return true;
         }
         vectorize!(ahead.instructions, _simd => ahead.look_at_points(system, (&state.eta, g)));
-        let tables = [from.0, to.0];
-        self.peaks.hold_at_points(system, tables, &ahead.points, &ahead.bends_at_points)
+        self.peaks.hold_at_points(system, [from.0, to.0], &ahead.points)
     }
 }
 

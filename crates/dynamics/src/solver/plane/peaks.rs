@@ -6,7 +6,7 @@
 
 use super::mass::{Matrix, times};
 use super::nodes::{NODES, nodes};
-use super::rows::{AtPoints, Rows, at};
+use super::rows::{PointsBetween, Rows, at};
 use super::series::{Kind, Series, square};
 use super::stop::Arc;
 use super::system::{State, System};
@@ -189,32 +189,28 @@ pub(super) struct Peaks {
     pub(super) smallest: [f64; 2],
 }
 
-/// Room for what points do at the ends of a part of a series, and how far they and the modes depart from their chords.
+/// Room for what points do over a part of a series, and for how far the modes depart from their chords.
 #[derive(Default)]
 struct Room {
-    ends: [AtPoints; 2],
-    bends: AtPoints,
+    points: PointsBetween,
     of_modes: [Vec<f64>; 2],
 }
 
 impl Room {
     fn new(system: &System) -> Self {
-        let at_points = || AtPoints::new(system.points);
         let list = || vec![0.0; system.modes()];
-        Self { ends: [at_points(), at_points()], bends: at_points(), of_modes: [list(), list()] }
+        Self { points: PointsBetween::new(system.points), of_modes: [list(), list()] }
     }
 
     /// Of a part of a series that ends with `η` and `g`.
     #[inline(always)]
     fn look(&mut self, system: &System, series: &Series, to: f64, (eta, g): (&[f64], &[f64])) {
         let modes = series.modes;
-        let [first, last] = &mut self.ends;
-        first.values(system, &series.eta[..modes], &series.g[..modes]);
-        last.values(system, eta, g);
         let [of_eta, of_g] = &mut self.of_modes;
         series.bends(&series.eta, to, of_eta);
         series.bends(&series.g, to, of_g);
-        self.bends.bends(system, &self.of_modes);
+        let start = [&series.eta[..modes], &series.g[..modes]];
+        self.points.follow(system, Some(start), [eta, g], &self.of_modes);
     }
 }
 
@@ -347,8 +343,7 @@ impl Peaks {
         &self,
         system: &System,
         tables: [[f64; 2]; 2],
-        ends: &[AtPoints; 2],
-        bends: &AtPoints,
+        PointsBetween { ends, bends }: &PointsBetween,
     ) -> bool {
         let ends = ends.each_ref();
         (0..self.points).all(|i| {
@@ -403,7 +398,7 @@ impl Peaks {
         let &SeriesPart { system, series, to, .. } = part;
         let mut room = core::mem::take(&mut self.room);
         vectorize!(series.instructions, _simd => room.look(system, series, to, (&end.eta, g)));
-        let Room { ends, bends, .. } = &room;
+        let PointsBetween { ends, bends } = &room.points;
         let ends = ends.each_ref();
         for i in 0..system.points {
             let displacements = ends.map(|end| at(&end.displacements, i));

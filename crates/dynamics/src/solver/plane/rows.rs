@@ -19,9 +19,9 @@ pub(super) struct Rows {
 }
 
 impl Rows {
-    /// Of rows of so many modes, one after the other.
-    pub(super) fn new(modes: usize, rows: &[f64]) -> Self {
-        let rows: Vec<&[f64]> = rows.chunks_exact(modes.max(1)).collect();
+    /// Of rows of all modes, a point each.
+    pub(super) fn new(rows: &[Vec<f64>]) -> Self {
+        let modes = rows.first().map_or(0, Vec::len);
         let moves = |j: &usize| rows.iter().any(|row| row[*j] != 0.0);
         let first = (0..modes).find(moves).unwrap_or(0);
         let own = first..(first..modes).rev().find(moves).map_or(first, |last| last + 1);
@@ -112,6 +112,37 @@ pub(super) fn size_of_sum(row: &[f64], list: &[f64]) -> f64 {
     row.iter().zip(list).fold(0.0, |sum, (a, b)| sum + a.abs() * b)
 }
 
+/// What points do over a part of a motion: at both ends, and how far they depart from their chords at most.
+#[derive(Default)]
+pub(super) struct PointsBetween {
+    pub(super) ends: [AtPoints; 2],
+    pub(super) bends: AtPoints,
+}
+
+impl PointsBetween {
+    pub(super) fn new(points: usize) -> Self {
+        let at_points = || AtPoints::new(points);
+        Self { ends: [at_points(), at_points()], bends: at_points() }
+    }
+
+    /// From `η` and `g` of the modes at the start, where that is not known, and at the end, and from how far they bend.
+    #[inline(always)]
+    pub(super) fn follow(
+        &mut self,
+        system: &System,
+        start: Option<[&[f64]; 2]>,
+        end: [&[f64]; 2],
+        bends: &[Vec<f64>; 2],
+    ) {
+        let [first, last] = &mut self.ends;
+        if let Some(start) = start {
+            first.values(system, start);
+        }
+        last.values(system, end);
+        self.bends.bends(system, bends);
+    }
+}
+
 /// Of points along x and y: displacements, drifts and `Φ g`.
 #[derive(Default)]
 pub(super) struct AtPoints {
@@ -121,20 +152,20 @@ pub(super) struct AtPoints {
 }
 
 impl AtPoints {
-    pub(super) fn new(points: usize) -> Self {
+    fn new(points: usize) -> Self {
         let lists = || [vec![0.0; points], vec![0.0; points]];
         Self { displacements: lists(), drifts: lists(), of_g: lists() }
     }
 
     /// Their values, from `η` and `g` of the modes.
     #[inline(always)]
-    pub(super) fn values(&mut self, system: &System, eta: &[f64], g: &[f64]) {
-        self.each(system, [eta, g], |rows, list, into| rows.sums(list, into));
+    fn values(&mut self, system: &System, of_modes: [&[f64]; 2]) {
+        self.each(system, of_modes, |rows, list, into| rows.sums(list, into));
     }
 
     /// How far they depart from their chords at most, from how far `η` and `g` of the modes do.
     #[inline(always)]
-    pub(super) fn bends(&mut self, system: &System, [of_eta, of_g]: &[Vec<f64>; 2]) {
+    fn bends(&mut self, system: &System, [of_eta, of_g]: &[Vec<f64>; 2]) {
         self.each(system, [of_eta, of_g], |rows, list, into| rows.sizes(list, into));
     }
 

@@ -96,7 +96,9 @@ impl System {
             placed[axis * n..][..n].copy_from_slice(&row[..n]);
             placed
         };
-        let each_axis = |of: &dyn Fn(usize) -> Vec<f64>| [of(0), of(1)];
+        let rows = |of: &dyn Fn(usize, usize) -> Vec<f64>| {
+            [0, 1].map(|k| Rows::new(&(0..n).map(|i| of(k, i)).collect::<Vec<_>>()))
+        };
         let coupled = n > 0 && axes.iter().any(|axis| axis.uncoupled_modes().is_none());
         let per_kg = 1.0 / model.block().mass_kg;
         Ok(Self {
@@ -115,17 +117,15 @@ impl System {
             },
             damping: damping(&axes, n, coupled),
             coupled,
-            participation: each_axis(&|k| place(k, &axes[k].participation)),
-            floors: each_axis(&|k| (0..n).flat_map(|i| place(k, axes[k].floor(i))).collect())
-                .map(|rows| Rows::new(modes, &rows)),
-            drifts: each_axis(&|k| (0..n).flat_map(|i| place(k, axes[k].drift(i))).collect())
-                .map(|rows| Rows::new(modes, &rows)),
+            participation: [0, 1].map(|k| place(k, &axes[k].participation)),
+            floors: rows(&|k, i| place(k, axes[k].floor(i))),
+            drifts: rows(&|k, i| place(k, axes[k].drift(i))),
             with_block: Vec::new(),
             oscillators: Vec::new(),
             overturning: [0, 1].map(|k| {
                 let (arm, block) = Arms::new(models[k], &[])?.by_modes(&axes[k]);
                 let along = if k == 0 { [block, 0.0] } else { [0.0, block] };
-                Some((Rows::new(modes, &place(k, if n == 0 { &[] } else { &arm })), along))
+                Some((Rows::new(&[place(k, if n == 0 { &[] } else { &arm })]), along))
             }),
             rate_rad_per_s: axes.iter().fold(0.0, |rate: f64, a| rate.max(a.slip_rate_rad_per_s)),
         })
@@ -165,8 +165,7 @@ impl System {
             let drift = |(i, row): (usize, &Vec<f64>)| -> Vec<f64> {
                 row.iter().enumerate().map(|(j, x)| x - below(i, j)).collect()
             };
-            let rows: Vec<f64> = rows.iter().enumerate().flat_map(drift).collect();
-            Rows::new(modes.len(), &rows)
+            Rows::new(&rows.iter().enumerate().map(drift).collect::<Vec<_>>())
         });
         // What moves with the block: M_tot I − Σ L Lᵀ.
         let [[x, across], [_, y]] = structure.mass_in_plane_kg();
@@ -193,7 +192,7 @@ impl System {
                     along.iter_mut().zip(with_block[k]).for_each(|(a, part)| *a += lever * part);
                 }
             }
-            Some((Rows::new(modes.len(), &arm), along))
+            Some((Rows::new(&[arm]), along))
         };
         let overturning = [moment(0), moment(1)];
         let per_kg = 1.0 / block_kg;
@@ -224,7 +223,7 @@ impl System {
             damping,
             coupled: false,
             participation,
-            floors: floors.map(|rows| Rows::new(modes.len(), &rows.concat())),
+            floors: floors.map(|rows| Rows::new(&rows)),
             drifts,
             with_block,
             oscillators: sizes.iter().map(|size| 1.0 / size).collect(),
