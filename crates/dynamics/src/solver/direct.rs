@@ -14,7 +14,7 @@ use self::body::{Body, Expansion, InForce, Loads, State};
 use self::peaks::{Peaks, history};
 use super::course::Course;
 use super::ground::{Ground, Stretch};
-use super::phase::{Phase, Reached, Segment, Straight, fitting};
+use super::phase::{Of, Phase, Reached, Segment, Straight, fitting};
 use super::slider::{ROUNDING, SliderState};
 use super::tables::system_of;
 use super::walk::Walk;
@@ -191,6 +191,13 @@ impl<'a> Direct<'a> {
         }
     }
 
+    fn expansion(&self, of: Of) -> &Expansion {
+        match of {
+            Of::Motion => &self.series,
+            Of::Instant => &self.instant,
+        }
+    }
+
     /// Finds the coefficients of an instant up to an order; of the state one more is asked for than of
     /// forces.
     fn look_at_orders(&mut self, orders: usize, loads: &Loads) {
@@ -206,10 +213,6 @@ impl<'a> Direct<'a> {
 }
 
 impl<'a> Phase<'a> for Direct<'a> {
-    fn step(walk: &mut Walk<'a, Self>, sample: usize, from_s: f64) -> Result<(), SolveError> {
-        walk.step(sample, from_s)
-    }
-
     fn run_ahead(
         walk: &mut Walk<'a, Self>,
         [sample, end]: [usize; 2],
@@ -218,42 +221,7 @@ impl<'a> Phase<'a> for Direct<'a> {
         Ok(Reached { sample, at_s: 0.0 })
     }
 
-    #[inline(always)]
-    fn segment(walk: &mut Walk<'a, Self>, stretch: &Stretch, at_s: f64) -> Result<f64, SolveError> {
-        walk.segment(stretch, at_s)
-    }
-
-    #[inline(always)]
-    fn is_due(walk: &Walk<'a, Self>) -> bool {
-        walk.is_due()
-    }
-
-    #[inline(always)]
-    fn decide(walk: &mut Walk<'a, Self>, stretch: &Stretch, at_s: f64, at_sample: bool) -> bool {
-        walk.decide(stretch, at_s, at_sample)
-    }
-
-    #[inline(always)]
-    fn walk_jump(
-        walk: &mut Walk<'a, Self>,
-        sample: usize,
-        from: [f64; 2],
-        to: [f64; 2],
-    ) -> Result<(), SolveError> {
-        walk.walk_jump(sample, from, to)
-    }
-
-    fn look_beside_jump(walk: &mut Walk<'a, Self>, stretch: &Stretch) {
-        walk.look_beside_jump(stretch);
-    }
-
-    #[inline(always)]
-    fn begin(walk: &mut Walk<'a, Self>) {
-        walk.lean(0.0);
-    }
-
-    fn end(walk: &mut Walk<'a, Self>, end_s: f64) {
-        walk.end_leaning(end_s);
+    fn settle(walk: &mut Walk<'a, Self>) {
         walk.phase.settle_candidates(&mut walk.course);
     }
 
@@ -297,9 +265,6 @@ impl<'a> Phase<'a> for Direct<'a> {
 }
 
 impl<'a> Straight<'a> for Direct<'a> {
-    type Expansion = Expansion;
-    type State = State;
-
     fn put(&mut self, interface: usize, place: [f64; 2]) {
         match interface.checked_sub(1) {
             None => [self.x.s, self.x.w] = place,
@@ -316,12 +281,14 @@ impl<'a> Straight<'a> for Direct<'a> {
         }
     }
 
-    fn state(&self) -> State {
-        self.x.clone()
+    fn state(&self) -> Vec<f64> {
+        let mut list = vec![0.0; self.x.count()];
+        self.x.get(&mut list);
+        list
     }
 
-    fn set_state(&mut self, state: &State) {
-        self.x.clone_from(state);
+    fn set_state(&mut self, state: &[f64]) {
+        self.x.set(state);
     }
 
     fn demand_n(&mut self, hold: &Hold, [acceleration, normal_n]: [f64; 2]) -> f64 {
@@ -345,7 +312,7 @@ impl<'a> Straight<'a> for Direct<'a> {
             self.series.part
         });
         (self.series.part, self.series.from_s) = (part, from_s);
-        let mut segment = self.segment(&self.series);
+        let mut segment = self.segment(Of::Motion);
         // The series of a whole stretch ends where the stretch does.
         let is_whole = part == 1.0 && from_s + segment.unit_s >= stretch.to_s * (1.0 - 1e-15);
         if is_whole || segment.to_s > stretch.to_s {
@@ -359,16 +326,8 @@ impl<'a> Straight<'a> for Direct<'a> {
         self.instant.from_s = at_s;
     }
 
-    fn series(&self) -> &Expansion {
-        &self.series
-    }
-
-    fn instant(&self) -> &Expansion {
-        &self.instant
-    }
-
-    fn segment(&self, series: &Expansion) -> Segment {
-        let Expansion { from_s, unit_s, part, .. } = *series;
+    fn segment(&self, of: Of) -> Segment {
+        let Expansion { from_s, unit_s, part, .. } = *self.expansion(of);
         Segment { from_s, to_s: from_s + part * unit_s, unit_s, part }
     }
 
@@ -380,15 +339,16 @@ impl<'a> Straight<'a> for Direct<'a> {
         self.unit_s = unit_s;
     }
 
-    fn displacement<'e>(&self, series: &'e Expansion) -> &'e Polynomial {
-        &series.s
+    fn displacement(&self) -> &Polynomial {
+        &self.series.s
     }
 
-    fn velocity<'e>(&self, series: &'e Expansion, interface: usize) -> &'e Polynomial {
-        interface.checked_sub(1).map_or(&series.w, |i| &series.p[i])
+    fn velocity(&self, interface: usize) -> &Polynomial {
+        interface.checked_sub(1).map_or(&self.series.w, |i| &self.series.p[i])
     }
 
-    fn acceleration(&self, series: &Expansion, interface: usize) -> Polynomial {
+    fn acceleration(&self, of: Of, interface: usize) -> Polynomial {
+        let series = self.expansion(of);
         let (own, under) = match interface.checked_sub(1) {
             None => (&series.u, &series.ground),
             Some(i) => match self.body.contents[i].floor {
@@ -399,11 +359,13 @@ impl<'a> Straight<'a> for Direct<'a> {
         core::array::from_fn(|k| own[k] - under[k])
     }
 
-    fn asked<'e>(&self, series: &'e Expansion, interface: usize) -> &'e Polynomial {
+    fn asked(&self, of: Of, interface: usize) -> &Polynomial {
+        let series = self.expansion(of);
         interface.checked_sub(1).map_or(&series.friction, |i| &series.carried[i])
     }
 
-    fn normal(&self, series: &Expansion, interface: usize) -> [f64; 2] {
+    fn normal(&self, of: Of, interface: usize) -> [f64; 2] {
+        let series = self.expansion(of);
         let [now, change, ..] = if interface == 0 { series.normal } else { series.press };
         [now, change]
     }
@@ -415,8 +377,8 @@ impl<'a> Straight<'a> for Direct<'a> {
         }
     }
 
-    fn rounding_m_per_s2(&self, _: &Course<'a>, p: &Expansion, interface: usize) -> f64 {
-        let y = &self.peaks.values;
+    fn rounding_m_per_s2(&self, _: &Course<'a>, of: Of, interface: usize) -> f64 {
+        let (p, y) = (self.expansion(of), &self.peaks.values);
         let floor = if interface == 0 { 0 } else { self.body.contents[interface - 1].floor };
         let mass_kg = self.body.joined_kg(floor, &self.modes);
         let mut terms = size(&p.ground);

@@ -21,7 +21,7 @@ use super::course::Course;
 use super::dense::{self, Dense};
 use super::ground::{Ground, Normal, Roughness, Stretch};
 use super::outputs::Group;
-use super::phase::{Phase, Reached, Segment, Straight};
+use super::phase::{Of, Phase, Reached, Segment, Straight};
 use super::recorder::{Knot, Recorder};
 use super::slider::ROUNDING;
 use super::tables::{Batch, LazyPhase, PhaseTables, Tables};
@@ -375,6 +375,14 @@ impl<'a> Modal<'a> {
         system.derivative_norms(simd, slip, x, load, force, [f, eta2])
     }
 
+    #[inline(always)]
+    fn motion_of(&self, of: Of) -> &Motion {
+        match of {
+            Of::Motion => &self.motion,
+            Of::Instant => &self.instant,
+        }
+    }
+
     /// Expands the motion from a time of a stretch.
     fn expand_from(&mut self, stretch: &Stretch, from_s: f64) {
         by!(self, how => self.expand_motion(how, stretch, from_s));
@@ -431,11 +439,6 @@ impl<'a> Modal<'a> {
 }
 
 impl<'a> Phase<'a> for Modal<'a> {
-    #[inline(never)]
-    fn step(walk: &mut Walk<'a, Self>, sample: usize, from_s: f64) -> Result<(), SolveError> {
-        walk.step(sample, from_s)
-    }
-
     #[inline(always)]
     fn run_ahead(
         walk: &mut Walk<'a, Self>,
@@ -454,42 +457,7 @@ impl<'a> Phase<'a> for Modal<'a> {
         Ok(Reached { sample, at_s: 0.0 })
     }
 
-    #[inline(always)]
-    fn segment(walk: &mut Walk<'a, Self>, stretch: &Stretch, at_s: f64) -> Result<f64, SolveError> {
-        walk.segment(stretch, at_s)
-    }
-
-    #[inline(always)]
-    fn is_due(walk: &Walk<'a, Self>) -> bool {
-        walk.is_due()
-    }
-
-    #[inline(always)]
-    fn decide(walk: &mut Walk<'a, Self>, stretch: &Stretch, at_s: f64, at_sample: bool) -> bool {
-        walk.decide(stretch, at_s, at_sample)
-    }
-
-    #[inline(always)]
-    fn walk_jump(
-        walk: &mut Walk<'a, Self>,
-        sample: usize,
-        from: [f64; 2],
-        to: [f64; 2],
-    ) -> Result<(), SolveError> {
-        walk.walk_jump(sample, from, to)
-    }
-
-    fn look_beside_jump(walk: &mut Walk<'a, Self>, stretch: &Stretch) {
-        walk.look_beside_jump(stretch);
-    }
-
-    #[inline(always)]
-    fn begin(walk: &mut Walk<'a, Self>) {
-        walk.lean(0.0);
-    }
-
-    fn end(walk: &mut Walk<'a, Self>, end_s: f64) {
-        walk.end_leaning(end_s);
+    fn settle(walk: &mut Walk<'a, Self>) {
         let instructions = walk.phase.instructions;
         if let Some((dense, shared)) = Self::sharing(walk) {
             vectorize!(instructions, simd => dense.settle(simd, shared));
@@ -558,9 +526,6 @@ impl<'a> Phase<'a> for Modal<'a> {
 }
 
 impl<'a> Straight<'a> for Modal<'a> {
-    type Expansion = Motion;
-    type State = Vec<f64>;
-
     #[inline(always)]
     fn put(&mut self, _: usize, place: [f64; 2]) {
         [self.x[0], self.x[1]] = place;
@@ -579,8 +544,8 @@ impl<'a> Straight<'a> for Modal<'a> {
         self.x.clone()
     }
 
-    fn set_state(&mut self, state: &Vec<f64>) {
-        self.x.clone_from(state);
+    fn set_state(&mut self, state: &[f64]) {
+        self.x.copy_from_slice(state);
     }
 
     #[inline(always)]
@@ -612,17 +577,8 @@ impl<'a> Straight<'a> for Modal<'a> {
     }
 
     #[inline(always)]
-    fn series(&self) -> &Motion {
-        &self.motion
-    }
-
-    fn instant(&self) -> &Motion {
-        &self.instant
-    }
-
-    #[inline(always)]
-    fn segment(&self, motion: &Motion) -> Segment {
-        motion.segment
+    fn segment(&self, of: Of) -> Segment {
+        self.motion_of(of).segment
     }
 
     fn unit_s(&self) -> f64 {
@@ -634,27 +590,28 @@ impl<'a> Straight<'a> for Modal<'a> {
     }
 
     #[inline(always)]
-    fn displacement<'e>(&self, motion: &'e Motion) -> &'e Polynomial {
-        &motion.displacement
+    fn displacement(&self) -> &Polynomial {
+        &self.motion.displacement
     }
 
     #[inline(always)]
-    fn velocity<'e>(&self, motion: &'e Motion, _: usize) -> &'e Polynomial {
-        &motion.number
+    fn velocity(&self, _: usize) -> &Polynomial {
+        &self.motion.number
     }
 
-    fn acceleration(&self, motion: &Motion, _: usize) -> Polynomial {
+    fn acceleration(&self, of: Of, _: usize) -> Polynomial {
+        let motion = self.motion_of(of);
         derivative(&motion.number).map(|c| c / motion.segment.unit_s)
     }
 
     #[inline(always)]
-    fn asked<'e>(&self, motion: &'e Motion, _: usize) -> &'e Polynomial {
-        &motion.number
+    fn asked(&self, of: Of, _: usize) -> &Polynomial {
+        &self.motion_of(of).number
     }
 
     #[inline(always)]
-    fn normal(&self, motion: &Motion, _: usize) -> [f64; 2] {
-        motion.normal
+    fn normal(&self, of: Of, _: usize) -> [f64; 2] {
+        self.motion_of(of).normal
     }
 
     #[inline(always)]
@@ -664,8 +621,9 @@ impl<'a> Straight<'a> for Modal<'a> {
 
     /// The terms are `M1 a`, friction, springs and stop, and the structure's pull, which is no more than what it
     /// balances.
-    fn rounding_m_per_s2(&self, _: &Course<'a>, motion: &Motion, _: usize) -> f64 {
+    fn rounding_m_per_s2(&self, _: &Course<'a>, of: Of, _: usize) -> f64 {
         let InForce { mode, tables, friction, stop, .. } = self.now;
+        let motion = self.motion_of(of);
         let (mass_kg, Motion { number, load, segment, .. }) = (self.block_kg(), motion);
         let Segment { unit_s, part, .. } = *segment;
         let a = load.acceleration.abs() + part * load.acceleration_change.abs();

@@ -37,50 +37,21 @@ pub(super) struct Reached {
 
 /// The motion between two events: the state of structure, slider and contents, its series, and what is kept
 /// of it. Interfaces are numbered, the slider first, then the contents.
-pub(super) trait Phase<'a>: Sized {
+pub(super) trait Phase<'a> {
     // ---- steps ----------------------------------------------------------------------------------
-
-    /// [`Walk::step`] by the vector instructions of this.
-    fn step(walk: &mut Walk<'a, Self>, sample: usize, from_s: f64) -> Result<(), SolveError>;
 
     /// Goes on from the first of two samples towards the second, as far as nothing is in doubt.
     ///
     /// # Errors
     /// Where the analysis is stopped.
-    fn run_ahead(walk: &mut Walk<'a, Self>, samples: [usize; 2]) -> Result<Reached, SolveError>;
+    fn run_ahead(walk: &mut Walk<'a, Self>, samples: [usize; 2]) -> Result<Reached, SolveError>
+    where
+        Self: Sized;
 
-    /// One segment, up to its end or the first event in it; the time reached.
-    ///
-    /// # Errors
-    /// Where what is reached has no continuation.
-    fn segment(walk: &mut Walk<'a, Self>, stretch: &Stretch, at_s: f64) -> Result<f64, SolveError>;
-
-    /// Whether something waits to be decided.
-    fn is_due(walk: &Walk<'a, Self>) -> bool;
-
-    /// Decides all that is due at an instant; whether something was.
-    fn decide(walk: &mut Walk<'a, Self>, stretch: &Stretch, at_s: f64, at_sample: bool) -> bool;
-
-    /// Goes through a jump at a sample between two pairs of acceleration and normal force: what it releases
-    /// has reached its bound. Displacements and velocities are what they were.
-    ///
-    /// # Errors
-    /// Where the events in it do not end.
-    fn walk_jump(
-        walk: &mut Walk<'a, Self>,
-        sample: usize,
-        from: [f64; 2],
-        to: [f64; 2],
-    ) -> Result<(), SolveError>;
-
-    /// Looks at the outputs under loads that stand.
-    fn look_beside_jump(walk: &mut Walk<'a, Self>, stretch: &Stretch);
-
-    /// What holds from the start.
-    fn begin(walk: &mut Walk<'a, Self>);
-
-    /// Ends at a time what lasts, and settles what may still hold a peak.
-    fn end(walk: &mut Walk<'a, Self>, end_s: f64);
+    /// Settles what may still hold a peak.
+    fn settle(walk: &mut Walk<'a, Self>)
+    where
+        Self: Sized;
 
     // ---- state ----------------------------------------------------------------------------------
 
@@ -108,17 +79,21 @@ pub(super) trait Phase<'a>: Sized {
     );
 }
 
+/// Which series of the motion by powers of the time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Of {
+    /// That which was expanded last.
+    Motion,
+    /// Of the last instant looked at: accelerations and forces.
+    Instant,
+}
+
 /// A phase in one direction, in which an interface slides one way or the other: its series in the modes of a
 /// [`Course`].
 ///
 /// What an interface is *asked* for is the force of the slider in N, of contents their acceleration in
 /// m/s², with the *normal* force in the same unit.
-pub(super) trait Straight<'a>: Phase<'a> {
-    /// The motion from an instant on by powers of the time.
-    type Expansion;
-    /// What moves.
-    type State: Clone;
-
+pub(super) trait Straight<'a>: Phase<'a> + 'a {
     // ---- state ----------------------------------------------------------------------------------
 
     /// Gives the slider or contents a displacement and a velocity that an event fixes.
@@ -129,10 +104,10 @@ pub(super) trait Straight<'a>: Phase<'a> {
     fn strike(&mut self, change: f64);
 
     /// All that moves.
-    fn state(&self) -> Self::State;
+    fn state(&self) -> Vec<f64>;
 
     /// Goes back to it.
-    fn set_state(&mut self, state: &Self::State);
+    fn set_state(&mut self, state: &[f64]);
 
     /// The force that keeps the block stuck under an acceleration and a normal force, eqs (8), (14), by what
     /// holds it.
@@ -149,14 +124,8 @@ pub(super) trait Straight<'a>: Phase<'a> {
     /// Finds accelerations and forces of an instant.
     fn look_at_instant(&mut self, course: &Course<'a>, stretch: &Stretch, at_s: f64);
 
-    /// What was expanded last.
-    fn series(&self) -> &Self::Expansion;
-
-    /// The last instant looked at.
-    fn instant(&self) -> &Self::Expansion;
-
     /// What of the motion a series is of, as far as it is exact.
-    fn segment(&self, series: &Self::Expansion) -> Segment;
+    fn segment(&self, of: Of) -> Segment;
 
     /// The length that a series took last, in s.
     fn unit_s(&self) -> f64;
@@ -164,41 +133,37 @@ pub(super) trait Straight<'a>: Phase<'a> {
     /// The length to begin with.
     fn set_unit_s(&mut self, unit_s: f64);
 
-    /// Sliding displacement, where the slider slides and its branch can end elsewhere than at a stop.
-    fn displacement<'e>(&self, series: &'e Self::Expansion) -> &'e Polynomial;
+    /// Sliding displacement by what was expanded last, where the slider slides and its branch can end elsewhere than at
+    /// a stop.
+    fn displacement(&self) -> &Polynomial;
 
-    /// Velocity of an interface that slides.
-    fn velocity<'e>(&self, series: &'e Self::Expansion, interface: usize) -> &'e Polynomial;
+    /// Velocity of an interface that slides, by what was expanded last.
+    fn velocity(&self, interface: usize) -> &Polynomial;
 
     /// Acceleration of an interface over what it slides on.
-    fn acceleration(&self, series: &Self::Expansion, interface: usize) -> Polynomial;
+    fn acceleration(&self, of: Of, interface: usize) -> Polynomial;
 
     /// What an interface that sticks is asked for.
-    fn asked<'e>(&self, series: &'e Self::Expansion, interface: usize) -> &'e Polynomial;
+    fn asked(&self, of: Of, interface: usize) -> &Polynomial;
 
     /// What presses on it, at the start, and by how much that changes over the unit.
-    fn normal(&self, series: &Self::Expansion, interface: usize) -> [f64; 2];
+    fn normal(&self, of: Of, interface: usize) -> [f64; 2];
 
     /// What holds it.
     fn hold(&self, course: &Course<'a>, interface: usize) -> Hold;
 
     /// What is rounding of the acceleration of an interface over what it slides on, in m/s²: of its terms
     /// now, or of the largest so far.
-    fn rounding_m_per_s2(
-        &self,
-        course: &Course<'a>,
-        series: &Self::Expansion,
-        interface: usize,
-    ) -> f64;
+    fn rounding_m_per_s2(&self, course: &Course<'a>, of: Of, interface: usize) -> f64;
 
     /// Where the slider rests against a rigid stop, or between two: how much of its push towards each friction cannot
     /// take, positive where that stop takes some; and the sign of that push.
-    fn beyond_friction(&self, course: &Course<'a>) -> impl Iterator<Item = (f64, Polynomial)> {
-        let (series, mut hold) = (self.series(), self.hold(course, 0));
+    fn beyond_friction(&self, course: &Course<'a>) -> Vec<(f64, Polynomial)> {
+        let mut hold = self.hold(course, 0);
         if course.block.mode != Mode::Stick {
             hold = hold.off_stops();
         }
-        hold.beyond_friction(self.asked(series, 0), self.normal(series, 0))
+        hold.beyond_friction(self.asked(Of::Motion, 0), self.normal(Of::Motion, 0)).collect()
     }
 
     /// Largest velocity of an interface so far.

@@ -37,7 +37,7 @@ use super::course::{self, Course};
 use super::ground::{Ground, Stretch};
 use super::phase::{Phase, Reached};
 use super::slider::leading;
-use super::walk::Walk;
+use super::walk::{Events, Walk};
 use crate::error::SolveError;
 use crate::linear::polynomial::ZERO;
 use crate::numerics::InstructionSet;
@@ -244,103 +244,12 @@ enum Due {
 }
 
 impl<'a> Phase<'a> for Plane<'a> {
-    fn step(walk: &mut Walk<'a, Self>, sample: usize, from_s: f64) -> Result<(), SolveError> {
-        walk.step(sample, from_s)
-    }
-
     fn run_ahead(walk: &mut Walk<'a, Self>, samples: [usize; 2]) -> Result<Reached, SolveError> {
         ahead::run_ahead(walk, samples)
     }
 
-    fn segment(walk: &mut Walk<'a, Self>, stretch: &Stretch, at_s: f64) -> Result<f64, SolveError> {
-        let to_s = match walk.course.block.mode {
-            Mode::Stick => walk.phase.hold(stretch, at_s),
-            Mode::Slip(_) => walk.phase.slide(stretch, at_s),
-        };
-        // A step is counted as an event, one without length as a thousand: none of these moves on.
-        walk.course.events_in_interval += if to_s > at_s { 1 } else { 1000 };
-        let is_near_rest = walk.phase.series.kind == Kind::Slip && walk.phase.is_near_rest;
-        // Where times are as close as that they tell no knot from the next.
-        let instant_s = INSTANTS * f64::EPSILON * walk.ground.times_s[stretch.interval];
-        if is_near_rest && to_s < stretch.to_s && to_s - at_s > instant_s {
-            walk.record(stretch, to_s, false);
-        }
-        Ok(to_s)
-    }
-
-    fn is_due(walk: &Walk<'a, Self>) -> bool {
-        walk.phase.is_released || walk.phase.has_stopped(&walk.course)
-    }
-
-    fn decide(walk: &mut Walk<'a, Self>, stretch: &Stretch, at_s: f64, at_sample: bool) -> bool {
-        let Some(due) = walk.phase.due(&walk.course, stretch, at_s) else { return false };
-        walk.note_before(stretch, at_s, at_sample);
-        let at = course::Instant {
-            time_s: walk.ground.times_s[stretch.interval] + at_s,
-            place_m: walk.phase.state.s[0],
-            normal_n: stretch.normal_at(at_s),
-            mass_kg: walk.phase.system.block_kg,
-        };
-        let (course, phase) = (&mut walk.course, &mut walk.phase);
-        let direction = match due {
-            Due::GoOn(direction) => {
-                (phase.direction, phase.starts) = (direction, true);
-                return true;
-            }
-            Due::Stick(margin) => {
-                course.block.sliding.decide(margin);
-                course.block.sliding.end(at.time_s, at.place_m);
-                course.block.mode = Mode::Stick;
-                course.push(&at, EventKind::Stick);
-                [0.0; 2]
-            }
-            Due::Slip(direction) => {
-                course.block.mode = SLIP;
-                course.block.sliding.begin(at.time_s, at.place_m);
-                course.push(&at, EventKind::Slip);
-                (phase.direction, phase.starts, phase.peak_speed) = (direction, true, 0.0);
-                direction
-            }
-        };
-        phase.least.interrupt();
-        let sliding_displacement_y_m = phase.state.s[1];
-        phase.events.push(EventInPlane { direction, sliding_displacement_y_m });
-        true
-    }
-
-    /// Velocities are what they were, and one slider has one bound: the right side alone decides.
-    fn walk_jump(
-        _: &mut Walk<'a, Self>,
-        _: usize,
-        _: [f64; 2],
-        _: [f64; 2],
-    ) -> Result<(), SolveError> {
-        Ok(())
-    }
-
-    fn look_beside_jump(walk: &mut Walk<'a, Self>, stretch: &Stretch) {
-        let loads = walk.phase.loads(stretch, 0.0);
-        let phase = &mut walk.phase;
-        let kind = match walk.course.block.mode {
-            Mode::Stick => Kind::Stick,
-            Mode::Slip(_) => {
-                let at = phase.instant(&loads);
-                phase.series.from = phase.direction;
-                let taken = phase.direction.map(|u| at.friction * u);
-                for (friction, taken) in phase.series.friction.iter_mut().zip(taken) {
-                    (*friction, friction[0]) = (ZERO, taken);
-                }
-                Kind::Slip
-            }
-        };
-        phase.expand(kind, (loads, 1e-3));
-        phase.look_for_peaks(stretch, 0.0, 0.0);
-        phase.starts = false;
-    }
-
-    fn begin(_: &mut Walk<'a, Self>) {}
-
-    fn end(_: &mut Walk<'a, Self>, _: f64) {}
+    /// Its peaks are those of the steps.
+    fn settle(_: &mut Walk<'a, Self>) {}
 
     fn enter(&mut self, _: &Course<'a>) {}
 
@@ -369,5 +278,84 @@ impl<'a> Phase<'a> for Plane<'a> {
         let loads = self.loads(stretch, at_s);
         let [_, [table_y, _]] = loads.table;
         self.record_knot(course.block.mode, [time_s, table, table_y], loads.normal[0], row);
+    }
+}
+
+/// At a jump velocities are what they were, and one slider has one bound: the right side alone decides.
+impl<'a> Events for Walk<'a, Plane<'a>> {
+    fn segment(&mut self, stretch: &Stretch, at_s: f64) -> Result<f64, SolveError> {
+        let to_s = match self.course.block.mode {
+            Mode::Stick => self.phase.hold(stretch, at_s),
+            Mode::Slip(_) => self.phase.slide(stretch, at_s),
+        };
+        // A step is counted as an event, one without length as a thousand: none of these moves on.
+        self.course.events_in_interval += if to_s > at_s { 1 } else { 1000 };
+        let is_near_rest = self.phase.series.kind == Kind::Slip && self.phase.is_near_rest;
+        // Where times are as close as that they tell no knot from the next.
+        let instant_s = INSTANTS * f64::EPSILON * self.ground.times_s[stretch.interval];
+        if is_near_rest && to_s < stretch.to_s && to_s - at_s > instant_s {
+            self.record(stretch, to_s, false);
+        }
+        Ok(to_s)
+    }
+
+    fn is_due(&self) -> bool {
+        self.phase.is_released || self.phase.has_stopped(&self.course)
+    }
+
+    fn decide(&mut self, stretch: &Stretch, at_s: f64, at_sample: bool) -> bool {
+        let Some(due) = self.phase.due(&self.course, stretch, at_s) else { return false };
+        self.note_before(stretch, at_s, at_sample);
+        let at = course::Instant {
+            time_s: self.ground.times_s[stretch.interval] + at_s,
+            place_m: self.phase.state.s[0],
+            normal_n: stretch.normal_at(at_s),
+            mass_kg: self.phase.system.block_kg,
+        };
+        let (course, phase) = (&mut self.course, &mut self.phase);
+        let direction = match due {
+            Due::GoOn(direction) => {
+                (phase.direction, phase.starts) = (direction, true);
+                return true;
+            }
+            Due::Stick(margin) => {
+                course.block.sliding.decide(margin);
+                course.block.sliding.end(at.time_s, at.place_m);
+                course.block.mode = Mode::Stick;
+                course.push(&at, EventKind::Stick);
+                [0.0; 2]
+            }
+            Due::Slip(direction) => {
+                course.block.mode = SLIP;
+                course.block.sliding.begin(at.time_s, at.place_m);
+                course.push(&at, EventKind::Slip);
+                (phase.direction, phase.starts, phase.peak_speed) = (direction, true, 0.0);
+                direction
+            }
+        };
+        phase.least.interrupt();
+        let sliding_displacement_y_m = phase.state.s[1];
+        phase.events.push(EventInPlane { direction, sliding_displacement_y_m });
+        true
+    }
+
+    fn look_beside_jump(&mut self, stretch: &Stretch) {
+        let loads = self.phase.loads(stretch, 0.0);
+        let phase = &mut self.phase;
+        let kind = match self.course.block.mode {
+            Mode::Stick => Kind::Stick,
+            Mode::Slip(_) => {
+                let at = phase.instant(&loads);
+                phase.series.from = phase.direction;
+                let taken = phase.direction.map(|u| at.friction * u);
+                for (friction, taken) in phase.series.friction.iter_mut().zip(taken) {
+                    (*friction, friction[0]) = (ZERO, taken);
+                }
+                Kind::Slip
+            }
+        };
+        phase.expand(kind, (loads, 1e-3));
+        phase.look_for_peaks(stretch, 0.0, 0.0);
+        phase.starts = false;
     }
 }

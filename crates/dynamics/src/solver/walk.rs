@@ -10,7 +10,7 @@ mod straight;
 
 use super::course::Course;
 use super::ground::{Ground, Stretch};
-use super::phase::{Phase, Reached as Ahead};
+use super::phase::{Phase, Reached as Ahead, Straight};
 use super::summary::Outcome;
 use crate::error::SolveError;
 use crate::progress::Pulse;
@@ -20,8 +20,7 @@ use crate::response::{Contact, EventKind, Mode};
 pub const EVENTS_PER_INTERVAL_LIMIT: u32 = 1_000_000;
 
 /// A way through a motion.
-pub(super) struct Walk<'a, P> {
-    pub(super) phase: P,
+pub(super) struct Walk<'a, P: ?Sized> {
     pub(super) course: Course<'a>,
     pub(super) ground: Ground<'a>,
     /// Asks whether to go on, after so many units of work a segment.
@@ -39,6 +38,48 @@ pub(super) struct Walk<'a, P> {
     /// The last turn since the last impact.
     turn: Option<usize>,
     first_impact_s: Option<f64>,
+    pub(super) phase: P,
+}
+
+/// A walk in one direction, for what is done now and then: it is compiled once for all phases.
+type Line<'a> = Walk<'a, dyn Straight<'a> + 'a>;
+
+/// What happens on the way: in one direction, or in two.
+pub(super) trait Events {
+    /// One segment, up to its end or the first event in it; the time reached.
+    ///
+    /// # Errors
+    /// Where what is reached has no continuation.
+    fn segment(&mut self, stretch: &Stretch, at_s: f64) -> Result<f64, SolveError>;
+
+    /// Whether something waits to be decided.
+    fn is_due(&self) -> bool;
+
+    /// Decides all that is due at an instant; whether something was.
+    fn decide(&mut self, stretch: &Stretch, at_s: f64, at_sample: bool) -> bool;
+
+    /// Goes through a jump at a sample between two pairs of acceleration and normal force: what it releases
+    /// has reached its bound. Displacements and velocities are what they were.
+    ///
+    /// # Errors
+    /// Where the events in it do not end.
+    fn walk_jump(
+        &mut self,
+        _sample: usize,
+        _from: [f64; 2],
+        _to: [f64; 2],
+    ) -> Result<(), SolveError> {
+        Ok(())
+    }
+
+    /// Looks at the outputs under loads that stand.
+    fn look_beside_jump(&mut self, stretch: &Stretch);
+
+    /// Begins what lasts from the start.
+    fn begin(&mut self) {}
+
+    /// Ends at a time what lasts.
+    fn end(&mut self, _end_s: f64) {}
 }
 
 impl<'a, P: Phase<'a>> Walk<'a, P> {
@@ -51,7 +92,6 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
         (pulse, units): (Pulse<'a>, u32),
     ) -> Self {
         let mut walk = Self {
-            phase,
             course,
             ground,
             pulse,
@@ -63,22 +103,28 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
             leans_since_s: None,
             turn: None,
             first_impact_s: None,
+            phase,
         };
         walk.phase.enter(&walk.course);
         walk
     }
+}
 
+impl<'a, P: Phase<'a>> Walk<'a, P>
+where
+    Self: Events,
+{
     /// Goes through all sample intervals.
     #[inline(always)]
     pub(super) fn go(&mut self) -> Result<(), SolveError> {
         let times_s = self.ground.times_s;
         let last = times_s.len() - 1;
         self.note_ends(0.0)?;
-        P::begin(self);
-        P::walk_jump(self, 0, self.before, self.loads_at(0))?;
+        self.begin();
+        self.walk_jump(0, self.before, self.loads_at(0))?;
         if let Some(stretch) = self.ground.before_first_jump() {
-            P::decide(self, &stretch, 0.0, true);
-            P::look_beside_jump(self, &stretch);
+            self.decide(&stretch, 0.0, true);
+            self.look_beside_jump(&stretch);
             self.clear_starts();
         }
         let mut sample = 0;
@@ -93,7 +139,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
                 break;
             }
             if times_s[sample + 1] > times_s[sample] {
-                P::step(self, sample, from_s)?;
+                self.step(sample, from_s)?;
             } else {
                 self.step_over_jump(sample)?;
             }
@@ -109,14 +155,14 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
         // What a jump at the very end lets go has no time to slide.
         let times_s = self.ground.times_s;
         if times_s[sample] < times_s[times_s.len() - 1] {
-            P::walk_jump(self, sample + 1, self.loads_at(sample), self.loads_at(sample + 1))?;
+            self.walk_jump(sample + 1, self.loads_at(sample), self.loads_at(sample + 1))?;
         }
         Ok(())
     }
 
     /// Goes through one sample interval from a time in it.
-    #[inline(always)]
-    pub(super) fn step(&mut self, sample: usize, from_s: f64) -> Result<(), SolveError> {
+    #[inline(never)]
+    fn step(&mut self, sample: usize, from_s: f64) -> Result<(), SolveError> {
         self.course.events_in_interval = 0;
         for stretch in self.ground.stretches(sample, from_s).iter().flatten() {
             self.step_stretch(stretch)?;
@@ -127,19 +173,19 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
     fn finish(&mut self, last: usize) -> Result<(), SolveError> {
         let end_s = self.ground.times_s[last];
         self.must_be_finite(end_s)?;
-        if P::is_due(self) {
+        if self.is_due() {
             // A decision at the very end is made by the limit from the left.
             let interval = (0..last).rev().find(|&i| self.ground.times_s[i] < end_s);
             if let Some(interval) = interval {
                 let length_s = end_s - self.ground.times_s[interval];
                 let stretch = self.ground.stretch(interval, 0.0, length_s);
-                P::decide(self, &stretch, length_s, false);
+                self.decide(&stretch, length_s, false);
             }
         }
         if let Some(stretch) = self.ground.after_last_jump() {
-            P::walk_jump(self, last, self.loads_at(last - 1), self.loads_at(last))?;
-            P::decide(self, &stretch, 0.0, true);
-            P::look_beside_jump(self, &stretch);
+            self.walk_jump(last, self.loads_at(last - 1), self.loads_at(last))?;
+            self.decide(&stretch, 0.0, true);
+            self.look_beside_jump(&stretch);
         }
         self.record_sample(last);
         for i in 0..self.course.interfaces() {
@@ -154,10 +200,42 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
             slider.stopping.change(end_s, 0.0, slider.memory.contact, Contact::Free);
         }
         self.course.slider.note_surfaces(self.phase.place(0)[0]);
-        P::end(self, end_s);
+        self.end(end_s);
+        P::settle(self);
         Ok(())
     }
 
+    // ---- steps ----------------------------------------------------------------------------------
+
+    #[inline(always)]
+    fn step_stretch(&mut self, stretch: &Stretch) -> Result<(), SolveError> {
+        let mut at_s = stretch.from_s;
+        let mut first = at_s == 0.0;
+        loop {
+            let before = self.course.events.len();
+            let decided = self.decide(stretch, at_s, first);
+            if first || decided || self.course.events.len() > before {
+                self.record(stretch, at_s, first);
+            }
+            first = false;
+            let time_s = self.ground.times_s[stretch.interval] + at_s;
+            self.note_ends(time_s)?;
+            self.limit_events(time_s)?;
+            self.must_be_finite(time_s)?;
+            if at_s >= stretch.to_s {
+                return Ok(());
+            }
+            self.pulse.beat(self.units)?;
+            at_s = self.segment(stretch, at_s)?;
+            // At a sample the limit from the right decides.
+            if at_s >= stretch.to_s {
+                return Ok(());
+            }
+        }
+    }
+}
+
+impl<'a, P: Phase<'a> + ?Sized> Walk<'a, P> {
     /// What the analysis leaves behind.
     pub(super) fn outcome(&self, overturns: bool) -> Outcome {
         let (course, slider) = (&self.course, &self.course.slider);
@@ -181,35 +259,6 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
     /// Acceleration and normal force at a sample.
     fn loads_at(&self, sample: usize) -> [f64; 2] {
         [self.ground.acceleration[sample], self.ground.normal_at(sample)]
-    }
-
-    // ---- steps ----------------------------------------------------------------------------------
-
-    #[inline(always)]
-    fn step_stretch(&mut self, stretch: &Stretch) -> Result<(), SolveError> {
-        let mut at_s = stretch.from_s;
-        let mut first = at_s == 0.0;
-        loop {
-            let before = self.course.events.len();
-            let decided = P::decide(self, stretch, at_s, first);
-            if first || decided || self.course.events.len() > before {
-                self.record(stretch, at_s, first);
-            }
-            first = false;
-            let time_s = self.ground.times_s[stretch.interval] + at_s;
-            self.note_ends(time_s)?;
-            self.limit_events(time_s)?;
-            self.must_be_finite(time_s)?;
-            if at_s >= stretch.to_s {
-                return Ok(());
-            }
-            self.pulse.beat(self.units)?;
-            at_s = P::segment(self, stretch, at_s)?;
-            // At a sample the limit from the right decides.
-            if at_s >= stretch.to_s {
-                return Ok(());
-            }
-        }
     }
 
     fn limit_events(&self, time_s: f64) -> Result<(), SolveError> {

@@ -225,7 +225,8 @@ impl<'a> Direct<'a> {
 
     /// Friction takes what it can where the block leans on a rigid stop, the stop the rest.
     fn look_at_friction(&mut self, course: &mut Course<'_>, part: f64) {
-        let beyond = self.beyond_friction(course).find(|(_, p)| value(p, 0.5 * part) > 0.0);
+        let beyond =
+            self.beyond_friction(course).into_iter().find(|(_, p)| value(p, 0.5 * part) > 0.0);
         let friction = &self.series.friction;
         let peak = &mut self.peaks.values[output::FRICTION];
         let Some((sign, beyond)) = beyond else {

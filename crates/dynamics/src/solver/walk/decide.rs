@@ -14,9 +14,9 @@
 
 use super::super::course::{AMBIGUOUS, Release};
 use super::super::ground::{Stretch, jump};
-use super::super::phase::{Segment, Straight};
+use super::super::phase::{Of, Segment, Straight};
 use super::super::slider::{ROUNDING, Start, falls_below, first_crossing, leading};
-use super::Walk;
+use super::{Line, Walk};
 use crate::error::SolveError;
 use crate::linear::polynomial::{Polynomial, curvature_bound, value};
 use crate::response::{EventKind, Mode};
@@ -42,9 +42,7 @@ struct InForce {
     memory: Memory,
 }
 
-impl<'a, P: Straight<'a>> Walk<'a, P> {
-    // ---- rounding -------------------------------------------------------------------------------
-
+impl<'a, P: Straight<'a> + ?Sized> Walk<'a, P> {
     /// What is rounding of the velocity of an interface at a part of a series: of `Σ |c_k| x^k`, or of the
     /// largest so far.
     #[inline(always)]
@@ -55,64 +53,42 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
     }
 
     /// What is rounding of the time over a series, in its unit.
-    fn rounding_of_time(&self, series: &P::Expansion) -> f64 {
-        let Segment { from_s, unit_s, .. } = self.phase.segment(series);
+    fn rounding_of_time(&self, of: Of) -> f64 {
+        let Segment { from_s, unit_s, .. } = self.phase.segment(of);
         if unit_s > 0.0 { ROUNDING * (from_s / unit_s) } else { 0.0 }
     }
 
     /// What is rounding of the distance of a stuck interface from its bound.
-    fn rounding_of_distance(&self, series: &P::Expansion, i: usize, distance: &Polynomial) -> f64 {
-        let mut of_terms = self.phase.rounding_m_per_s2(&self.course, series, i);
+    fn rounding_of_distance(&self, of: Of, i: usize, distance: &Polynomial) -> f64 {
+        let mut of_terms = self.phase.rounding_m_per_s2(&self.course, of, i);
         if i == 0 {
-            let [normal, rise] = self.phase.normal(series, i).map(f64::abs);
-            let normal_n = normal + self.phase.segment(series).part * rise;
+            let [normal, rise] = self.phase.normal(of, i).map(f64::abs);
+            let normal_n = normal + self.phase.segment(of).part * rise;
             let hold = self.phase.hold(&self.course, i);
             of_terms = of_terms * self.phase.block_kg() + ROUNDING * hold.largest_n(normal_n);
         }
-        self.doubt * (of_terms + self.rounding_of_time(series) * distance[1].abs())
+        self.doubt * (of_terms + self.rounding_of_time(of) * distance[1].abs())
     }
-
-    // ---- bounds ---------------------------------------------------------------------------------
 
     /// Distance of a stuck interface from the bound at which it slides in a direction, positive where it
     /// is held; none where nothing lets it go that way.
-    fn distance(&self, series: &P::Expansion, i: usize, to: Direction) -> Option<Polynomial> {
+    fn distance(&self, of: Of, i: usize, to: Direction) -> Option<Polynomial> {
         let hold = self.phase.hold(&self.course, i);
-        let normal = self.phase.normal(series, i);
-        hold.gives(to).then(|| hold.distance(self.phase.asked(series, i), normal, to))
+        let normal = self.phase.normal(of, i);
+        hold.gives(to).then(|| hold.distance(self.phase.asked(of, i), normal, to))
     }
 
-    /// Where a stuck interface is about to slide by the series: the first derivative of demand − bound
-    /// that does not vanish is positive.
-    fn leaving(&self, i: usize) -> Option<Direction> {
-        let series = self.phase.series();
-        Direction::BOTH.into_iter().rev().find(|&to| {
-            self.distance(series, i, to).is_some_and(|distance| {
-                let rounding = self.rounding_of_distance(series, i, &distance);
-                leading(&distance, rounding).is_some_and(|k| distance[k] < 0.0)
-            })
-        })
-    }
-
-    /// Whether a stuck interface is at its bound or beyond it.
-    fn is_any_at_bound(&mut self, stretch: &Stretch, at_s: f64) -> bool {
-        if self.course.stuck().next().is_none() {
-            return false;
-        }
-        self.phase.look_at_instant(&self.course, stretch, at_s);
-        let instant = self.phase.instant();
-        let mut sides = self.course.stuck().flat_map(|i| Direction::BOTH.map(|to| (i, to)));
-        sides.any(|(i, to)| {
-            let distance = self.distance(instant, i, to);
-            distance.is_some_and(|d| !(d[0] > self.rounding_of_distance(instant, i, &d)))
-        })
+    /// Whether there is a slider alone, without rigid stops.
+    #[inline(always)]
+    pub(super) fn is_lone(&self) -> bool {
+        self.course.contents.is_empty() && self.course.slider.law.walls_m().is_none()
     }
 
     /// The first part of the series at which a stuck interface is released.
     #[inline(always)]
     pub(super) fn first_release(&self, i: usize, part: f64) -> Option<(f64, Direction)> {
-        let (phase, series) = (&self.phase, self.phase.series());
-        let (asked, [normal, rise]) = (phase.asked(series, i), phase.normal(series, i));
+        let (phase, motion) = (&self.phase, Of::Motion);
+        let (asked, [normal, rise]) = (phase.asked(motion, i), phase.normal(motion, i));
         let hold = phase.hold(&self.course, i);
         let hidden = 0.125 * curvature_bound(asked) * (part * part);
         let last = [value(asked, part), normal + rise * part];
@@ -135,63 +111,30 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
     /// The same in a direction.
     #[inline(always)]
     fn release_towards(&self, i: usize, to: Direction, part: f64) -> Option<f64> {
-        let series = self.phase.series();
-        let mut distance = self.distance(series, i, to)?;
+        let mut distance = self.distance(Of::Motion, i, to)?;
         let at = first_crossing(&distance, part)?;
         // What does not go further below zero than rounding is held.
-        let rounding = self.rounding_of_distance(series, i, &distance);
+        let rounding = self.rounding_of_distance(Of::Motion, i, &distance);
         let order = leading(&distance, rounding)?;
         distance[..order].fill(0.0);
         falls_below(&distance, rounding, part).then_some(())?;
         if order == 0 { Some(at) } else { first_crossing(&distance, part) }
     }
+}
 
+impl<'a, P: Straight<'a>> Walk<'a, P> {
     /// Finds all stuck interfaces that reach their bounds at a part of the series, where one does.
     #[inline(always)]
     pub(super) fn find_released(&mut self, first: Release, part: f64) {
         self.course.released.push(first);
         if self.course.interfaces() > 1 {
-            self.find_released_with(first, part);
-        }
-    }
-
-    #[inline(never)]
-    fn find_released_with(&mut self, first: Release, part: f64) {
-        let mut released = core::mem::take(&mut self.course.released);
-        let others = self.course.stuck().filter(|&i| i != first.interface);
-        released.extend(others.filter_map(|i| self.released(i, part)));
-        self.course.released = released;
-    }
-
-    /// Where a stuck interface has reached its bound at a part of the series.
-    fn released(&self, interface: usize, part: f64) -> Option<Release> {
-        let series = self.phase.series();
-        let (at, direction) = self.first_release(interface, self.phase.segment(series).part)?;
-        let distance = self.distance(series, interface, direction)?;
-        let rounding = self.rounding_of_distance(series, interface, &distance);
-        let is_reached = at <= part || value(&distance, part) <= rounding;
-        is_reached.then_some(Release { interface, direction })
-    }
-
-    // ---- decisions ------------------------------------------------------------------------------
-
-    /// Decides all that is due at an instant; whether something was.
-    #[inline(always)]
-    pub(in crate::solver) fn decide(
-        &mut self,
-        stretch: &Stretch,
-        at_s: f64,
-        at_sample: bool,
-    ) -> bool {
-        match self.decide_beyond_doubt(stretch, at_s, at_sample) {
-            Some(decided) => decided,
-            None => self.decide_by_series(stretch, at_s, at_sample),
+            self.line().find_released_with(first, part);
         }
     }
 
     /// Decides about a lone slider by the force that it is asked for; none where that is ambiguous.
     #[inline(always)]
-    fn decide_beyond_doubt(
+    pub(super) fn decide_beyond_doubt(
         &mut self,
         stretch: &Stretch,
         at_s: f64,
@@ -246,15 +189,108 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
         Some(true)
     }
 
-    /// Whether there is a slider alone, without rigid stops.
-    #[inline(always)]
-    fn is_lone(&self) -> bool {
-        self.course.contents.is_empty() && self.course.slider.law.walls_m().is_none()
+    #[inline(never)]
+    pub(super) fn walk_ramps(
+        &mut self,
+        sample: usize,
+        from: [f64; 2],
+        to: [f64; 2],
+    ) -> Result<(), SolveError> {
+        let (was, state, near) = (self.line().in_force(), self.phase.state(), self.course.near);
+        let (start, unit_s) = (self.line().starts(), self.phase.unit_s());
+        let resting: Vec<bool> = (0..was.modes.len())
+            .map(|i| was.modes[i] == Mode::Stick || self.has_stopped(i))
+            .collect();
+        self.walks_jump = true;
+        for stretch in jump(sample, from, to) {
+            let mut at_s = stretch.from_s;
+            self.phase.set_unit_s(stretch.to_s - at_s);
+            while at_s < stretch.to_s {
+                let due = !self.course.released.is_empty()
+                    || self.has_any_stopped()
+                    || self.line().is_any_at_bound(&stretch, at_s);
+                if due {
+                    let reached = core::mem::take(&mut self.course.released);
+                    let next = self.line().choose(&stretch, at_s, &reached);
+                    self.course.events_in_interval += 1;
+                    self.limit_events(self.ground.times_s[sample])?;
+                    self.line().put_in_force(&next.in_force);
+                    self.line().put_start(&next.start);
+                }
+                let (segment, end) = self.advance(&stretch, at_s);
+                self.follow(segment.part, end);
+                at_s = segment.to_s;
+            }
+        }
+        self.walks_jump = false;
+        let slides = |i: usize| match self.course.mode(i) {
+            Mode::Slip(direction) if resting[i] && !self.has_stopped(i) => {
+                Some(Release { interface: i, direction })
+            }
+            _ => None,
+        };
+        self.course.released = (0..resting.len()).filter_map(slides).collect();
+        self.phase.set_state(&state);
+        self.course.near = near;
+        self.phase.set_unit_s(unit_s);
+        self.line().put_start(&start);
+        self.line().put_in_force(&was);
+        Ok(())
+    }
+}
+
+impl<'a> Line<'a> {
+    /// Where a stuck interface is about to slide by the series: the first derivative of demand − bound
+    /// that does not vanish is positive.
+    fn leaving(&self, i: usize) -> Option<Direction> {
+        Direction::BOTH.into_iter().rev().find(|&to| {
+            self.distance(Of::Motion, i, to).is_some_and(|distance| {
+                let rounding = self.rounding_of_distance(Of::Motion, i, &distance);
+                leading(&distance, rounding).is_some_and(|k| distance[k] < 0.0)
+            })
+        })
+    }
+
+    /// Whether a stuck interface is at its bound or beyond it.
+    fn is_any_at_bound(&mut self, stretch: &Stretch, at_s: f64) -> bool {
+        if self.course.stuck().next().is_none() {
+            return false;
+        }
+        self.phase.look_at_instant(&self.course, stretch, at_s);
+        let instant = Of::Instant;
+        let mut sides = self.course.stuck().flat_map(|i| Direction::BOTH.map(|to| (i, to)));
+        sides.any(|(i, to)| {
+            let distance = self.distance(instant, i, to);
+            distance.is_some_and(|d| !(d[0] > self.rounding_of_distance(instant, i, &d)))
+        })
+    }
+
+    #[inline(never)]
+    fn find_released_with(&mut self, first: Release, part: f64) {
+        let mut released = core::mem::take(&mut self.course.released);
+        let others = self.course.stuck().filter(|&i| i != first.interface);
+        released.extend(others.filter_map(|i| self.released(i, part)));
+        self.course.released = released;
+    }
+
+    /// Where a stuck interface has reached its bound at a part of the series.
+    fn released(&self, interface: usize, part: f64) -> Option<Release> {
+        let motion = Of::Motion;
+        let (at, direction) = self.first_release(interface, self.phase.segment(motion).part)?;
+        let distance = self.distance(motion, interface, direction)?;
+        let rounding = self.rounding_of_distance(motion, interface, &distance);
+        let is_reached = at <= part || value(&distance, part) <= rounding;
+        is_reached.then_some(Release { interface, direction })
     }
 
     /// Decides about all interfaces by their series.
     #[inline(never)]
-    fn decide_by_series(&mut self, stretch: &Stretch, at_s: f64, at_sample: bool) -> bool {
+    pub(super) fn decide_by_series(
+        &mut self,
+        stretch: &Stretch,
+        at_s: f64,
+        at_sample: bool,
+    ) -> bool {
         let stopped = self.has_any_stopped();
         let reached = core::mem::take(&mut self.course.released);
         let due = stopped || !reached.is_empty();
@@ -266,8 +302,9 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
             self.stick(0);
             self.phase.enter(&self.course);
             self.phase.look_at_instant(&self.course, stretch, at_s);
-            let (phase, instant) = (&self.phase, self.phase.instant());
-            let (asked_n, [normal_n, _]) = (phase.asked(instant, 0)[0], phase.normal(instant, 0));
+            let phase = &self.phase;
+            let asked_n = phase.asked(Of::Instant, 0)[0];
+            let [normal_n, _] = phase.normal(Of::Instant, 0);
             let holds = [self.hold_at_rest(), phase.hold(&self.course, 0)];
             holds.map(|hold| hold.margin(asked_n, normal_n))
         });
@@ -351,7 +388,7 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
                 self.choose_from(at, held, &[])
             };
         }
-        let demand = self.phase.asked(self.phase.series(), 0)[0];
+        let demand = self.phase.asked(Of::Motion, 0)[0];
         if first.holds && first.sticking == held.modes.len() - reached.len() {
             return first;
         }
@@ -421,11 +458,11 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
         let mut start = self.starts();
         for i in (0..held.modes.len()).filter(|&i| held.modes[i] == Mode::Stick) {
             if let Mode::Slip(direction) = self.course.mode(i) {
-                let series = self.phase.series();
-                let acceleration = self.phase.acceleration(series, i).map(|c| direction.sign() * c);
+                let acceleration = self.phase.acceleration(Of::Motion, i);
+                let acceleration = acceleration.map(|c| direction.sign() * c);
                 let rounding = self.doubt
-                    * (self.phase.rounding_m_per_s2(&self.course, series, i)
-                        + self.rounding_of_time(series) * acceleration[1].abs());
+                    * (self.phase.rounding_m_per_s2(&self.course, Of::Motion, i)
+                        + self.rounding_of_time(Of::Motion) * acceleration[1].abs());
                 let order = leading(&acceleration, rounding);
                 holds &= order.is_some_and(|k| acceleration[k] > 0.0);
                 let order = 1 + order.unwrap_or(0);
@@ -467,70 +504,6 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
         {
             self.course.slider.memory.contact = contact;
         }
-    }
-
-    /// Goes through a jump of the loads: what it releases has reached its bound. Displacements and
-    /// velocities are what they were.
-    #[inline(always)]
-    pub(in crate::solver) fn walk_jump(
-        &mut self,
-        sample: usize,
-        from: [f64; 2],
-        to: [f64; 2],
-    ) -> Result<(), SolveError> {
-        if self.is_lone() {
-            return Ok(());
-        }
-        self.walk_ramps(sample, from, to)
-    }
-
-    #[inline(never)]
-    fn walk_ramps(
-        &mut self,
-        sample: usize,
-        from: [f64; 2],
-        to: [f64; 2],
-    ) -> Result<(), SolveError> {
-        let (was, state, near) = (self.in_force(), self.phase.state(), self.course.near);
-        let (start, unit_s) = (self.starts(), self.phase.unit_s());
-        let resting: Vec<bool> = (0..was.modes.len())
-            .map(|i| was.modes[i] == Mode::Stick || self.has_stopped(i))
-            .collect();
-        self.walks_jump = true;
-        for stretch in jump(sample, from, to) {
-            let mut at_s = stretch.from_s;
-            self.phase.set_unit_s(stretch.to_s - at_s);
-            while at_s < stretch.to_s {
-                let due = !self.course.released.is_empty()
-                    || self.has_any_stopped()
-                    || self.is_any_at_bound(&stretch, at_s);
-                if due {
-                    let reached = core::mem::take(&mut self.course.released);
-                    let next = self.choose(&stretch, at_s, &reached);
-                    self.course.events_in_interval += 1;
-                    self.limit_events(self.ground.times_s[sample])?;
-                    self.put_in_force(&next.in_force);
-                    self.put_start(&next.start);
-                }
-                let (segment, end) = self.advance(&stretch, at_s);
-                self.follow(segment.part, end);
-                at_s = segment.to_s;
-            }
-        }
-        self.walks_jump = false;
-        let slides = |i: usize| match self.course.mode(i) {
-            Mode::Slip(direction) if resting[i] && !self.has_stopped(i) => {
-                Some(Release { interface: i, direction })
-            }
-            _ => None,
-        };
-        self.course.released = (0..resting.len()).filter_map(slides).collect();
-        self.phase.set_state(&state);
-        self.course.near = near;
-        self.phase.set_unit_s(unit_s);
-        self.put_start(&start);
-        self.put_in_force(&was);
-        Ok(())
     }
 
     /// Emits the events of what has changed at an instant.

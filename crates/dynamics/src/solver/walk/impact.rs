@@ -2,8 +2,8 @@
 
 use super::super::course::{Near, Sliding};
 use super::super::ground::Stretch;
-use super::super::phase::Straight;
-use super::Walk;
+use super::super::phase::Of;
+use super::Line;
 use crate::linear::polynomial::{Polynomial, deflated, first_root, value};
 use crate::response::{EventKind, Mode};
 use crate::slider::{Direction, Hold};
@@ -17,12 +17,12 @@ const LEAST_BOUNCE: f64 = 4.0 * f64::EPSILON;
 /// Longest remaining time of infinitely many bounces, as a part of the whole time: it is left out.
 const LONGEST_REST: f64 = 8.0 * f64::EPSILON;
 
-impl<'a, P: Straight<'a>> Walk<'a, P> {
+impl<'a> Line<'a> {
     /// Moves to a part of the series beside a stop that has just been struck; further away `s` itself has
     /// the digits.
     #[inline(never)]
     pub(super) fn move_near(&mut self, part: f64) {
-        let mut moved = *self.phase.displacement(self.phase.series());
+        let mut moved = *self.phase.displacement();
         moved[0] = 0.0;
         if let Some(near) = &mut self.course.near {
             near.offset += value(&moved, part);
@@ -84,8 +84,8 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
     /// Where friction takes all of the push against a rigid stop, or no longer does.
     #[inline(never)]
     pub(super) fn first_lean(&mut self, part: f64) -> Option<f64> {
-        let mut sides: Vec<Polynomial> =
-            self.phase.beyond_friction(&self.course).map(|(_, beyond)| beyond).collect();
+        let beyond = self.phase.beyond_friction(&self.course);
+        let mut sides: Vec<Polynomial> = beyond.into_iter().map(|(_, beyond)| beyond).collect();
         if core::mem::take(&mut self.leant) {
             let least = sides.iter().fold(f64::INFINITY, |least, p| least.min(p[0].abs()));
             sides.iter_mut().filter(|p| p[0].abs() <= least).for_each(|p| p[0] = 0.0);
@@ -218,6 +218,6 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
     fn acceleration_at(&mut self, stretch: &Stretch, at_s: f64) -> f64 {
         self.phase.enter(&self.course);
         self.phase.look_at_instant(&self.course, stretch, at_s);
-        self.phase.acceleration(self.phase.instant(), 0)[0]
+        self.phase.acceleration(Of::Instant, 0)[0]
     }
 }

@@ -3,7 +3,7 @@
 use super::super::course::{Instant, Release};
 use super::super::ground::Stretch;
 use super::super::phase::{Segment, Straight};
-use super::Walk;
+use super::{Events, Line, Walk};
 use crate::error::SolveError;
 use crate::linear::polynomial::{Polynomial, derivative, first_root, first_root_after_zero, value};
 use crate::response::{EventKind, Mode};
@@ -22,24 +22,71 @@ pub(super) enum End {
     Lean,
 }
 
-impl<'a, P: Straight<'a>> Walk<'a, P> {
-    // ---- what is in force ----------------------------------------------------------------------
-
-    /// Whether an interface slides without a velocity.
+impl<'a, P: Straight<'a>> Events for Walk<'a, P> {
+    /// One segment, up to its end or the first event in it; the time reached.
     #[inline(always)]
-    pub(in crate::solver) fn has_stopped(&self, i: usize) -> bool {
-        let interface = self.course.interface(i);
-        interface.mode != Mode::Stick && interface.start.is_none() && self.phase.place(i)[1] == 0.0
-    }
-
-    /// Whether any does.
-    pub(super) fn has_any_stopped(&self) -> bool {
-        (0..self.course.interfaces()).any(|i| self.has_stopped(i))
+    fn segment(&mut self, stretch: &Stretch, from_s: f64) -> Result<f64, SolveError> {
+        let (segment, end) = self.advance(stretch, from_s);
+        // What is passed in no time is no peak, but for the start.
+        if segment.part > 0.0 || stretch.interval == 0 {
+            self.phase.look(&mut self.course, stretch, &segment);
+        }
+        self.follow(segment.part, end);
+        match end {
+            Some(End::Lean) => {
+                self.leant = true;
+                self.record(stretch, segment.to_s, false);
+            }
+            Some(End::Exit(exit)) => self.line().reach(stretch, segment.to_s, exit.reached)?,
+            _ => {}
+        }
+        Ok(segment.to_s)
     }
 
     /// Whether something waits to be decided: a stop or what has reached its bound.
-    pub(in crate::solver) fn is_due(&self) -> bool {
+    fn is_due(&self) -> bool {
         !self.course.released.is_empty() || self.has_any_stopped()
+    }
+
+    /// Decides all that is due at an instant; whether something was.
+    #[inline(always)]
+    fn decide(&mut self, stretch: &Stretch, at_s: f64, at_sample: bool) -> bool {
+        match self.decide_beyond_doubt(stretch, at_s, at_sample) {
+            Some(decided) => decided,
+            None => self.line().decide_by_series(stretch, at_s, at_sample),
+        }
+    }
+
+    /// Goes through a jump of the loads: what it releases has reached its bound. Displacements and
+    /// velocities are what they were.
+    #[inline(always)]
+    fn walk_jump(&mut self, sample: usize, from: [f64; 2], to: [f64; 2]) -> Result<(), SolveError> {
+        if self.is_lone() {
+            return Ok(());
+        }
+        self.walk_ramps(sample, from, to)
+    }
+
+    /// Looks at the outputs under loads that stand.
+    fn look_beside_jump(&mut self, stretch: &Stretch) {
+        let segment = self.phase.expand(&self.course, stretch, 0.0).up_to(0.0);
+        self.phase.move_to(0.0);
+        self.phase.look(&mut self.course, stretch, &segment);
+    }
+
+    fn begin(&mut self) {
+        self.line().lean(0.0);
+    }
+
+    fn end(&mut self, end_s: f64) {
+        self.line().end_leaning(end_s);
+    }
+}
+
+impl<'a, P: Straight<'a>> Walk<'a, P> {
+    /// As what is done now and then sees it.
+    pub(super) fn line(&mut self) -> &mut Line<'a> {
+        self
     }
 
     /// Whether nothing waits to be decided: neither a slip that has just started nor what has stopped or
@@ -53,39 +100,6 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
             && !starts
     }
 
-    // ---- steps ---------------------------------------------------------------------------------
-
-    /// Looks at the outputs under loads that stand.
-    pub(in crate::solver) fn look_beside_jump(&mut self, stretch: &Stretch) {
-        let segment = self.phase.expand(&self.course, stretch, 0.0).up_to(0.0);
-        self.phase.move_to(0.0);
-        self.phase.look(&mut self.course, stretch, &segment);
-    }
-
-    /// One segment, up to its end or the first event in it; the time reached.
-    #[inline(always)]
-    pub(in crate::solver) fn segment(
-        &mut self,
-        stretch: &Stretch,
-        from_s: f64,
-    ) -> Result<f64, SolveError> {
-        let (segment, end) = self.advance(stretch, from_s);
-        // What is passed in no time is no peak, but for the start.
-        if segment.part > 0.0 || stretch.interval == 0 {
-            self.phase.look(&mut self.course, stretch, &segment);
-        }
-        self.follow(segment.part, end);
-        match end {
-            Some(End::Lean) => {
-                self.leant = true;
-                self.record(stretch, segment.to_s, false);
-            }
-            Some(End::Exit(exit)) => self.reach(stretch, segment.to_s, exit.reached)?,
-            _ => {}
-        }
-        Ok(segment.to_s)
-    }
-
     /// Moves up to the end of the series or the first event in it, and what ends there.
     #[inline(always)]
     pub(super) fn advance(&mut self, stretch: &Stretch, from_s: f64) -> (Segment, Option<End>) {
@@ -96,7 +110,7 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
         });
         self.phase.move_to(segment.part);
         if self.course.near.is_some() {
-            self.move_near(segment.part);
+            self.line().move_near(segment.part);
         }
         self.clear_starts();
         self.course.slider.just = None;
@@ -125,8 +139,7 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
             let (law, memory) = (self.course.slider.law, &self.course.slider.memory);
             let exits = law.exits(memory, direction);
             if exits.iter().any(Option::is_some) {
-                let series = self.phase.series();
-                let sliding = [self.phase.displacement(series), self.phase.velocity(series, 0)];
+                let sliding = [self.phase.displacement(), self.phase.velocity(0)];
                 for exit in exits.into_iter().flatten() {
                     let p = self.of_exit(&exit, sliding);
                     take(first_root(&p, segment.part), End::Exit(exit));
@@ -141,7 +154,7 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
             }
         }
         if self.leans_since_s.is_some() && !self.walks_jump {
-            take(self.first_lean(segment.part), End::Lean);
+            take(self.line().first_lean(segment.part), End::Lean);
         }
         first
     }
@@ -155,7 +168,7 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
         segment: &Segment,
     ) -> Option<f64> {
         let sign = direction.sign();
-        let mut speed = self.phase.velocity(self.phase.series(), i).map(|c| sign * c);
+        let mut speed = self.phase.velocity(i).map(|c| sign * c);
         match self.course.interface(i).start {
             None => first_root(&speed, segment.part),
             Some(start) => {
@@ -191,13 +204,6 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
         self.stop_within_rounding(part);
     }
 
-    /// An interface has come to a halt.
-    #[inline(always)]
-    pub(super) fn stand(&mut self, i: usize) {
-        let [place, _] = self.phase.place(i);
-        self.phase.put(i, [place, 0.0]);
-    }
-
     /// Stops what slides, at a part of the series, with no more velocity than rounding and no
     /// acceleration.
     #[inline(always)]
@@ -214,11 +220,45 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
     /// Whether a speed is no more than rounding, and falls.
     #[inline(always)]
     pub(super) fn is_within_rounding(&self, i: usize, speed: f64, part: f64) -> bool {
-        let velocity = self.phase.velocity(self.phase.series(), i);
+        let velocity = self.phase.velocity(i);
         let falls = |sign: f64| sign * value(&derivative(velocity), part) <= 0.0;
         speed <= self.rounding_m_per_s(i, velocity, part) && falls(self.course.mode(i).sign())
     }
+}
 
+impl<'a, P: Straight<'a> + ?Sized> Walk<'a, P> {
+    /// Whether any does.
+    pub(super) fn has_any_stopped(&self) -> bool {
+        (0..self.course.interfaces()).any(|i| self.has_stopped(i))
+    }
+
+    /// Whether an interface slides without a velocity.
+    #[inline(always)]
+    pub(in crate::solver) fn has_stopped(&self, i: usize) -> bool {
+        let interface = self.course.interface(i);
+        interface.mode != Mode::Stick && interface.start.is_none() && self.phase.place(i)[1] == 0.0
+    }
+
+    /// An interface has come to a halt.
+    #[inline(always)]
+    pub(super) fn stand(&mut self, i: usize) {
+        let [place, _] = self.phase.place(i);
+        self.phase.put(i, [place, 0.0]);
+    }
+
+    /// The present state of the slider so long after the first sample of an interval.
+    #[inline(always)]
+    pub(super) fn instant(&self, stretch: &Stretch, at_s: f64) -> Instant {
+        Instant {
+            time_s: self.ground.times_s[stretch.interval] + at_s,
+            place_m: self.phase.place(0)[0],
+            normal_n: stretch.normal_at(at_s),
+            mass_kg: self.phase.block_kg(),
+        }
+    }
+}
+
+impl<'a> Line<'a> {
     /// What follows the end of a branch of the slider.
     #[inline(never)]
     pub(super) fn reach(
@@ -244,24 +284,11 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
         Ok(())
     }
 
-    // ---- events --------------------------------------------------------------------------------
-
     pub(super) fn push_event(&mut self, time_s: f64, interface: usize, kind: EventKind) {
         if interface == 0 {
             self.turn = (kind == EventKind::Reversal).then_some(self.course.events.len());
         }
         let [place_m, _] = self.phase.place(interface);
         self.course.push_of(interface, [time_s, place_m], kind);
-    }
-
-    /// The present state of the slider so long after the first sample of an interval.
-    #[inline(always)]
-    pub(super) fn instant(&self, stretch: &Stretch, at_s: f64) -> Instant {
-        Instant {
-            time_s: self.ground.times_s[stretch.interval] + at_s,
-            place_m: self.phase.place(0)[0],
-            normal_n: stretch.normal_at(at_s),
-            mass_kg: self.phase.block_kg(),
-        }
     }
 }
