@@ -288,12 +288,6 @@ impl<'a> Modal<'a> {
         }
     }
 
-    /// Groups of eight outputs; those of one storey are one.
-    #[inline(always)]
-    pub(super) fn groups<S: Simd, W: Width>(&self, how: How<S, W>, phase: &PhaseTables) -> usize {
-        if how.width.modes() == 1 { 1 } else { phase.outputs.groups.len() }
-    }
-
     /// A group of outputs in a padded state.
     #[inline(always)]
     pub(super) fn group_at<S: Simd>(

@@ -167,7 +167,7 @@ impl<'a> Modal<'a> {
         let (first, last) = (input(segment.from_s, self.next[1]), input(segment.to_s, self.x[1]));
         let stride = 4 * how.width.fours();
         let mut open = false;
-        for g in 0..self.groups(how, phase) {
+        for g in 0..phase.outputs.groups.len() {
             let a = Self::group_at(simd, phase, g, &self.next[..stride], first);
             let b = Self::group_at(simd, phase, g, &self.x[..stride], last);
             let group = &phase.outputs.groups[g];

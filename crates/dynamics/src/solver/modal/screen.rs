@@ -32,6 +32,27 @@ struct Coarse<S: Simd> {
     first: f64x8<S>,
 }
 
+/// Groups of outputs of which something is known; a group beyond the last bit never is.
+#[derive(Clone, Copy, Default)]
+struct Known(u128);
+
+impl Known {
+    #[inline(always)]
+    fn bit(group: usize) -> u128 {
+        u32::try_from(group).ok().and_then(|group| 1_u128.checked_shl(group)).unwrap_or(0)
+    }
+
+    #[inline(always)]
+    fn has(self, group: usize) -> bool {
+        self.0 & Self::bit(group) != 0
+    }
+
+    #[inline(always)]
+    fn note(&mut self, group: usize) {
+        self.0 |= Self::bit(group);
+    }
+}
+
 impl<'a> Modal<'a> {
     /// Takes samples up to the end of the evenly spaced ones; the first that the bounds leave open.
     #[inline(always)]
@@ -89,7 +110,7 @@ impl<'a> Modal<'a> {
         }
         let varying = matches!(self.ground.normal, Normal::Varying(_));
         let coefficient = self.now.friction;
-        let mut known = 0;
+        let mut known = Known::default();
         while sample + BATCH <= end {
             if pulse.beat(self.units).is_err() {
                 break;
@@ -175,7 +196,7 @@ impl<'a> Modal<'a> {
         let force = Force::Constant(0.0);
         let row = &phase.outputs.rows[output::FRICTION];
         let constant = row.of_stop * stop + row.constant;
-        let mut known = 0;
+        let mut known = Known::default();
         while sample + BATCH <= end {
             if pulse.beat(self.units).is_err() {
                 break;
@@ -189,7 +210,7 @@ impl<'a> Modal<'a> {
             let size = largest_size(simd, a);
             let by_batch = self.coarse(how, phase, size, BATCH as f64 * batch.dt_s);
             if self.is_quiet(how, phase, &by_batch, stop, holds) {
-                known = 0;
+                known = Known::default();
                 let later = (1..QUIET / BATCH).map(|i| sample + i * BATCH);
                 if sample + QUIET <= end
                     && matches!(self.ground.normal, Normal::Constant(_))
@@ -276,11 +297,11 @@ impl<'a> Modal<'a> {
         (sample, steps, curvature): (usize, usize, Curvature),
         [first, last]: [[f64; 3]; 2],
         (slack, first_group, reach): (f64x8<S>, Option<f64x8<S>>, f64),
-        known: &mut u64,
+        known: &mut Known,
     ) {
         let (simd, stride) = (how.simd, 4 * how.width.fours());
-        let (mut open, mut known_next) = (false, 0);
-        for g in 0..self.groups(how, phase) {
+        let (mut open, mut known_next) = (false, Known::default());
+        for g in 0..phase.outputs.groups.len() {
             let most = coarse.map(|coarse| {
                 let reach = if g == 0 { coarse.first } else { self.reach(how, phase, g, coarse) };
                 self.most(how, phase, g, reach, first[2])
@@ -295,7 +316,7 @@ impl<'a> Modal<'a> {
                 _ => Self::group_at(simd, phase, g, &self.next[..stride], last),
             };
             next.store_slice(&mut self.values[g].0);
-            known_next |= 1 << g;
+            known_next.note(g);
             let slack = if g == 0 && steps == BATCH {
                 slack
             } else {
@@ -309,7 +330,7 @@ impl<'a> Modal<'a> {
         }
     }
 
-    /// Outputs of a group in `x`; `known` has a bit for each group whose outputs stand in `values`.
+    /// Outputs of a group in `x`; `known` are those groups whose outputs stand in `values`.
     #[inline(always)]
     fn outputs_known<S: Simd, W: Width>(
         &mut self,
@@ -317,13 +338,13 @@ impl<'a> Modal<'a> {
         phase: &PhaseTables,
         g: usize,
         inputs: [f64; 3],
-        known: &mut u64,
+        known: &mut Known,
     ) -> f64x8<S> {
-        if *known & (1 << g) == 0 {
+        if !known.has(g) {
             let x = &self.x[..4 * how.width.fours()];
             let y = Self::group_at(how.simd, phase, g, x, inputs);
             y.store_slice(&mut self.values[g].0);
-            *known |= 1 << g;
+            known.note(g);
             return y;
         }
         self.values[g].load(how.simd)
@@ -392,7 +413,7 @@ impl<'a> Modal<'a> {
         stop: f64,
         holds: f64,
     ) -> bool {
-        for g in 0..self.groups(how, phase) {
+        for g in 0..phase.outputs.groups.len() {
             let reach = if g == 0 { coarse.first } else { self.reach(how, phase, g, coarse) };
             if g == 0 && !(reach.as_array()[output::FRICTION] <= holds) {
                 return false;
