@@ -240,6 +240,32 @@ where
         f.velocity[0] = larger(f.velocity[0], excess((stored - v).abs() - rounding));
     }
 
+    /// What the rounding of `N` makes of a place and a velocity in an interval of a length, from the acceleration that it
+    /// may be.
+    pub(super) fn take_drift(&mut self, acceleration: f64, length_s: f64) -> [f64; 2] {
+        let drift = acceleration * length_s;
+        let drift_m = 0.5 * length_s * drift;
+        self.drift = [self.drift[0].max(drift_m), self.drift[1].max(drift)];
+        [drift_m, drift]
+    }
+
+    /// Compares the end of a path with the knot stored there, degree by degree: displacement and velocity, less what the
+    /// rounding of times makes of the largest velocity and the largest rate on the way, and that of `N`. Between two
+    /// knots the motion may be faster and go farther than at any.
+    pub(super) fn arrive(
+        &mut self,
+        (k, degree): (usize, usize),
+        end: [f64; 2],
+        [fastest, rate]: [f64; 2],
+        drift: [f64; 2],
+    ) {
+        let rounding = [self.instant_s * fastest + drift[0], self.instant_s * rate + drift[1]];
+        self.compare(k, degree, end, rounding);
+        let f = &mut self.figures;
+        f.displacement[1] = larger(f.displacement[1], end[0]);
+        f.velocity[1] = larger(f.velocity[1], fastest);
+    }
+
     /// Goes from run to run in order of time.
     fn walk(&mut self) -> Result<(), Stopped> {
         let (h, last) = (self.h, self.h.len() - 1);

@@ -8,7 +8,7 @@ mod knots;
 mod step;
 
 use self::equations::LineEquations;
-use self::interval::IntervalPath;
+use self::interval::LinePath;
 use self::knots::lists_of;
 use self::step::LineStepper;
 use super::demands::{self, Comparison, Recomputed, Rounding};
@@ -23,8 +23,6 @@ use crate::slider::Direction;
 /// What a judgement in one direction needs besides.
 pub(super) struct Line<'a> {
     stepper: LineStepper<'a>,
-    /// Room for the path of an interval.
-    path: Option<IntervalPath>,
     /// Largest sizes of the outputs.
     attained: Vec<f64>,
     /// Upper bounds on the fastest rate where the block sticks, slides, and slides against a stop, in 1/s.
@@ -42,7 +40,6 @@ impl<'a> Judge<'a, Line<'a>> {
         let equations = LineEquations { structure, law: given.law, slope };
         let line = Line {
             stepper: LineStepper::new(equations, outputs),
-            path: Some(IntervalPath::new(structure, outputs.len())),
             attained: vec![0.0; outputs.len()],
             rates: [0.0; 3],
             even_s: f64::NAN,
@@ -145,8 +142,9 @@ impl<'a> Directions for Judge<'a, Line<'a>> {
     }
 
     fn go_through(&mut self, run: Run) -> Result<(), Stopped> {
+        let mut path = LinePath::new(self.structure(), self.outputs.len());
         for k in run.from..run.to {
-            self.interval(k)?;
+            self.interval(k, &mut path)?;
             for (i, _) in self.h.modes(k).iter().enumerate().filter(|(_, m)| **m != Mode::Stick) {
                 // Without contact a slip may turn back.
                 let at = self.structure().degree_of(i);
@@ -163,7 +161,7 @@ impl<'a> Directions for Judge<'a, Line<'a>> {
     /// By the load that suits it best.
     fn alone(&mut self, k: usize) {
         let h = self.h;
-        let course = self.in_force(k, h.modes(k));
+        let in_force = self.in_force(k, h.modes(k));
         let (place, w) = (h.sliding_displacement_m[k], h.sliding_velocity_m_per_s[k]);
         let (mut table, mut force) = (f64::INFINITY, f64::INFINITY);
         for load in self.ground.instant(h.time_s[k]) {
@@ -172,7 +170,7 @@ impl<'a> Directions for Judge<'a, Line<'a>> {
             let off = match h.modes(k)[0] {
                 Mode::Stick => 0.0,
                 Mode::Slip(_) => {
-                    let drive = self.drive(&course, &[load; 2], None);
+                    let drive = self.drive(&in_force, &[load; 2], None);
                     let own = self.axes.stepper.equations.stored_sliding(&drive, 0, [place, w]);
                     (h.friction_force_n[k] - own).abs()
                 }

@@ -4,7 +4,7 @@
 //! and `v = (ṡ, q̇, ṙ)` have one entry for the block, one a storey and one an item of contents; `B` is the block's total
 //! acceleration with the slope, `s̈ + a`.
 
-use super::collocation::{Column, add, most};
+use super::collocation::{Column, add, combined, most};
 use super::damping::modal_damping;
 use crate::model::{Contents, Damping, Model, StopKind};
 
@@ -194,10 +194,8 @@ impl Structure {
         };
         let mut term = 0.0_f64;
         for (to, row) in to.iter_mut().zip(rows) {
-            for (c, v) in row.iter().zip(v) {
-                add(to, *c, v);
-                term = term.max(c.abs() * most(v));
-            }
+            add(to, 1.0, &combined(v, row));
+            term = row.iter().zip(v).fold(term, |term, (c, v)| term.max(c.abs() * most(v)));
         }
         term
     }

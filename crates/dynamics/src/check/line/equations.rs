@@ -35,13 +35,13 @@ pub(super) struct Drive<'a> {
     pub(super) loads: Vec<[f64; 2]>,
     /// Stiffness and damper of an elastic stop that is pressed.
     pub(super) stop: [f64; 2],
-    /// `N p₁ + N/R`, likewise.
+    /// `N p₁ + N/R` at the start and at the end.
     pub(super) rise: [f64; 2],
     /// `N p₂` where friction by speed is in a straight piece.
     pub(super) drag: f64,
     /// Whether `T` is `N p₀ μ(|ṡ|)`.
     pub(super) by_speed: bool,
-    /// Least and largest demand that friction takes; a rigid stop takes the rest.
+    /// Least and largest demand that friction takes, each at the start and at the end; a rigid stop takes the rest.
     pub(super) taken: [[f64; 2]; 2],
 }
 
@@ -64,7 +64,7 @@ pub(super) fn linear<const N: usize>([from, to]: [f64; 2], parts: &Column<N>) ->
 }
 
 /// What acts at some instants.
-pub(super) struct Acting<const N: usize> {
+pub(super) struct LineForces<const N: usize> {
     /// Accelerations of the block, the floors and the contents, with the slope's share.
     pub(super) bodies: Vec<Column<N>>,
     /// `C q̇`.
@@ -79,7 +79,7 @@ pub(super) struct Acting<const N: usize> {
     pub(super) rise: Column<N>,
 }
 
-impl<const N: usize> Acting<N> {
+impl<const N: usize> LineForces<N> {
     /// Room for a structure.
     pub(super) fn new(structure: &Structure) -> Self {
         Self {
@@ -154,14 +154,14 @@ impl LineEquations<'_> {
         drive: &Drive<'_>,
         parts: &Column<N>,
         [x, v]: [&[Column<N>]; 2],
-        to: &mut Acting<N>,
+        to: &mut LineForces<N>,
     ) {
         let s = self.structure;
         let n = s.masses_kg.len();
         let (a, shift) = (drive.load(TABLE, parts), drive.load(SHIFT, parts));
         let (rise, sliding) = (linear(drive.rise, parts), self.sliding_forces(drive, parts, &v[0]));
         let shear = s.base_shear(&x[1..=n], &v[1..=n]);
-        let Acting { bodies, viscous, .. } = to;
+        let LineForces { bodies, viscous, .. } = to;
         viscous.fill([0.0; N]);
         s.add_viscous(&v[1..=n], viscous);
         bodies[1..=n].copy_from_slice(viscous);
@@ -224,7 +224,7 @@ impl LineEquations<'_> {
         outputs: &Outputs,
         (drive, parts): (&Drive<'_>, &Column<N>),
         [x, v]: [&[Column<N>]; 2],
-        acting: &Acting<N>,
+        acting: &LineForces<N>,
         out: &mut [Column<N>],
     ) {
         let (s, bodies) = (self.structure, &acting.bodies);

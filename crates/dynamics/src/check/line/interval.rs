@@ -18,7 +18,7 @@ use crate::slider::Direction;
 
 /// What is in force from a knot on.
 #[derive(Clone, Copy)]
-pub(super) struct InForce<'m> {
+pub(super) struct IntervalLaw<'m> {
     pub(super) modes: &'m [Mode],
     /// `p₀, p₁`.
     friction: [f64; 2],
@@ -33,13 +33,13 @@ pub(super) struct InForce<'m> {
 }
 
 /// A straight piece of friction by speed: `p₀, p₂`, and between which speeds.
-pub(super) struct Piece {
+pub(super) struct SpeedPiece {
     line: [f64; 2],
     band: [f64; 2],
 }
 
 /// What is known of the path from a knot so far.
-pub(super) struct IntervalPath {
+pub(super) struct LinePath {
     knot: usize,
     step: LineStep,
     fastest: Vec<f64>,
@@ -49,7 +49,7 @@ pub(super) struct IntervalPath {
     astray: Vec<[f64; 2]>,
 }
 
-impl IntervalPath {
+impl LinePath {
     /// Room for paths with so many outputs.
     pub(super) fn new(structure: &Structure, outputs: usize) -> Self {
         Self {
@@ -85,7 +85,7 @@ impl<'a> Judge<'a, Line<'a>> {
     }
 
     /// What is in force from a knot on in modes.
-    pub(super) fn in_force<'m>(&self, k: usize, modes: &'m [Mode]) -> InForce<'m> {
+    pub(super) fn in_force<'m>(&self, k: usize, modes: &'m [Mode]) -> IntervalLaw<'m> {
         let s = self.h.sliding_displacement_m[k];
         let (mut friction, mut hold) = ([0.0; 2], [0.0; 2]);
         let mut taken = BOUNDLESS;
@@ -111,61 +111,63 @@ impl<'a> Judge<'a, Line<'a>> {
             }
         }
         let push = self.law.push(self.contact(k));
-        InForce { modes, friction, push, hold, taken, slides }
+        IntervalLaw { modes, friction, push, hold, taken, slides }
     }
 
     /// What drives a step under loads.
     pub(super) fn drive<'m>(
         &self,
-        course: &InForce<'m>,
+        in_force: &IntervalLaw<'m>,
         loads: &[Load; 2],
-        piece: Option<&Piece>,
+        piece: Option<&SpeedPiece>,
     ) -> Drive<'m> {
         let of = |factor: f64| loads.map(|load| load.normal * factor);
-        let [stiffness, damper, shift] = course.push.numbers();
-        let [p0, p1] = course.friction;
+        let [stiffness, damper, shift] = in_force.push.numbers();
+        let [p0, p1] = in_force.friction;
         let per_kg = self.structure().total_kg;
-        let contents = course.modes[1..].iter().zip(&self.structure().contents);
+        let contents = in_force.modes[1..].iter().zip(&self.structure().contents);
         let pulls = contents.map(|(mode, c)| of(mode.sign() * c.kinetic_friction / per_kg));
         let own =
             [loads.map(|load| load.a), of(piece.map_or(p0, |piece| piece.line[0])), [shift; 2]];
         Drive {
-            modes: course.modes,
+            modes: in_force.modes,
             loads: own.into_iter().chain(pulls).collect(),
             stop: [stiffness, damper],
             rise: of(p1 + self.law.curvature_per_m()),
             drag: piece.map_or(0.0, |piece| loads[0].normal * piece.line[1]),
-            by_speed: course.modes[0] != Mode::Stick && self.law.rate.is_some() && piece.is_none(),
-            taken: course.taken.map(of),
+            by_speed: in_force.modes[0] != Mode::Stick
+                && self.law.rate.is_some()
+                && piece.is_none(),
+            taken: in_force.taken.map(of),
         }
     }
 
     /// The straight piece of friction by speed in which the speeds at two knots lie.
-    fn piece(&self, course: &InForce<'_>, k: usize) -> Option<Piece> {
-        let (Some(rate), Mode::Slip(direction)) = (&self.law.rate, course.modes[0]) else {
+    fn piece(&self, in_force: &IntervalLaw<'_>, k: usize) -> Option<SpeedPiece> {
+        let (Some(rate), Mode::Slip(direction)) = (&self.law.rate, in_force.modes[0]) else {
             return None;
         };
         let speeds = [k, k + 1].map(|k| self.h.sliding_velocity_m_per_s[k].abs());
         let (band, [mu, slope]) = rate.piece(speeds)?;
         // −σ f (c + m |ṡ|) = −σ f c − f m ṡ.
-        let line = [course.friction[0] * mu, rate.factor(direction) * slope];
-        Some(Piece { line, band })
+        let line = [in_force.friction[0] * mu, rate.factor(direction) * slope];
+        Some(SpeedPiece { line, band })
     }
 
     /// Judges the interval from a knot to the next.
-    pub(super) fn interval(&mut self, k: usize) -> Result<(), Stopped> {
+    pub(super) fn interval(&mut self, k: usize, path: &mut LinePath) -> Result<(), Stopped> {
         let h = self.h;
         let [from_s, end_s] = [h.time_s[k], h.time_s[k + 1]];
-        let course = self.in_force(k, h.modes(k));
-        let phase = match (course.modes[0], self.contact(k)) {
+        let in_force = self.in_force(k, h.modes(k));
+        let phase = match (in_force.modes[0], self.contact(k)) {
             (Mode::Stick, _) => Phase::Stick,
             (_, Contact::Pressed(_)) => Phase::Pressed,
             _ => Phase::Slip,
         };
         let even = (end_s - from_s - self.axes.even_s).abs() <= 2.0 * self.instant_s;
-        let piece = if even && !self.ground.has_vertical() { self.piece(&course, k) } else { None };
-        let Some(mut path) = self.axes.path.take() else { return Ok(()) };
-        self.start(&mut path, k, course.modes);
+        let piece =
+            if even && !self.ground.has_vertical() { self.piece(&in_force, k) } else { None };
+        self.start(path, k, in_force.modes);
         let mut at_s = from_s;
         while at_s < end_s {
             let whole = self.ground.piece(at_s, end_s);
@@ -184,18 +186,17 @@ impl<'a> Judge<'a, Line<'a>> {
                 let is_first = at_s == from_s && j == 0;
                 let is_last = whole.to_s >= end_s && j + 1 == steps as usize;
                 self.pulse.beat(32 * self.structure().degrees() as u32)?;
-                let in_force = (&course, piece.as_ref());
-                self.go(&mut path, in_force, (&stretch, usual_s), [is_first, is_last]);
+                let acting = (&in_force, piece.as_ref());
+                self.go(path, acting, (&stretch, usual_s), [is_first, is_last]);
             }
             at_s = whole.to_s;
         }
-        self.arrive(&path, &course);
-        self.axes.path = Some(path);
+        self.ends(path, &in_force);
         Ok(())
     }
 
     /// Starts a path from what is stored at a knot; what sticks has no velocity.
-    fn start(&self, path: &mut IntervalPath, k: usize, modes: &[Mode]) {
+    fn start(&self, path: &mut LinePath, k: usize, modes: &[Mode]) {
         (path.knot, path.normal_rounding) = (k, 0.0);
         path.fastest.fill(0.0);
         path.astray.fill([0.0; 2]);
@@ -211,17 +212,17 @@ impl<'a> Judge<'a, Line<'a>> {
     /// Goes through a step and takes up all that it tells.
     fn go(
         &mut self,
-        path: &mut IntervalPath,
-        (course, piece): (&InForce<'_>, Option<&Piece>),
+        path: &mut LinePath,
+        (in_force, piece): (&IntervalLaw<'_>, Option<&SpeedPiece>),
         (stretch, usual_s): (&LineStretch, Option<f64>),
         [is_first, is_last]: [bool; 2],
     ) {
         let k = path.knot;
-        let mut drive = self.drive(course, &stretch.loads, piece);
+        let mut drive = self.drive(in_force, &stretch.loads, piece);
         path.step.go_on();
         self.axes.stepper.step(&drive, (stretch.step_s, usual_s), &mut path.step);
         if piece.is_some_and(|piece| !piece.holds(&path.step.v[0])) {
-            drive = self.drive(course, &stretch.loads, None);
+            drive = self.drive(in_force, &stretch.loads, None);
             self.axes.stepper.step(&drive, (stretch.step_s, None), &mut path.step);
         }
         let rounding = stretch.loads[0].normal_rounding(self.ground.blur());
@@ -244,9 +245,9 @@ impl<'a> Judge<'a, Line<'a>> {
         if !drive.sticks(0) {
             self.still = self.still.max(STILL * path.fastest[0]);
         }
-        for (i, mode) in course.modes.iter().enumerate() {
+        for (i, mode) in in_force.modes.iter().enumerate() {
             match mode {
-                Mode::Stick => self.stays(i, (course, &drive), stretch, &path.step),
+                Mode::Stick => self.stays(i, (in_force, &drive), stretch, &path.step),
                 Mode::Slip(direction) => self.slides(i, *direction, stretch, path),
             }
         }
@@ -260,12 +261,7 @@ impl<'a> Judge<'a, Line<'a>> {
 
     /// Compares what is stored at the start (0) or the end (1) of an interval with the loads: the table's acceleration,
     /// forces of sliding, and where more acts on the block, its acceleration.
-    fn side(
-        &mut self,
-        path: &IntervalPath,
-        drive: &Drive<'_>,
-        (stretch, end): (&LineStretch, usize),
-    ) {
+    fn side(&mut self, path: &LinePath, drive: &Drive<'_>, (stretch, end): (&LineStretch, usize)) {
         let (h, s, k) = (self.h, self.structure(), path.knot + end);
         let load = &stretch.loads[end];
         let drift = self.instant_s * stretch.loads[0].slope.abs();
@@ -308,7 +304,7 @@ impl<'a> Judge<'a, Line<'a>> {
     /// damping   ∫ C1 ṡ² + q̇ᵀ C q̇ dt, and what the stop takes
     /// ```
     #[inline(always)]
-    fn spend(&mut self, path: &IntervalPath, drive: &Drive<'_>, step_s: f64) {
+    fn spend(&mut self, path: &LinePath, drive: &Drive<'_>, step_s: f64) {
         let (s, rule) = (self.structure(), self.axes.stepper.rule);
         let LineStep { x, v, acting, .. } = &path.step;
         let (n, a) = (s.masses_kg.len(), linear(drive.loads[TABLE], &rule.points));
@@ -357,7 +353,7 @@ impl<'a> Judge<'a, Line<'a>> {
     fn stays(
         &mut self,
         i: usize,
-        (course, drive): (&InForce<'_>, &Drive<'_>),
+        (in_force, drive): (&IntervalLaw<'_>, &Drive<'_>),
         stretch: &LineStretch,
         step: &LineStep,
     ) {
@@ -372,7 +368,7 @@ impl<'a> Judge<'a, Line<'a>> {
         let rounding = self.rounding(i, mass_kg, &stretch.loads[0]);
         let [from, to] = stretch.loads.map(|load| load.normal);
         let asked = |judge: &Self, value: f64, t: f64| {
-            judge.asked_in(i, value, course.hold, from + (to - from) * t)
+            judge.asked_in(i, value, in_force.hold, from + (to - from) * t)
         };
         let at_points =
             core::array::from_fn(|point| asked(self, values[point], rule.points[point]));
@@ -387,7 +383,7 @@ impl<'a> Judge<'a, Line<'a>> {
         i: usize,
         direction: Direction,
         stretch: &LineStretch,
-        path: &mut IntervalPath,
+        path: &mut LinePath,
     ) {
         let rule = self.axes.stepper.rule;
         let speeds =
@@ -424,37 +420,29 @@ impl<'a> Judge<'a, Line<'a>> {
     }
 
     /// Compares the end of the path with the knot stored there.
-    fn arrive(&mut self, path: &IntervalPath, course: &InForce<'_>) {
+    fn ends(&mut self, path: &LinePath, in_force: &IntervalLaw<'_>) {
         let (s, k) = (self.structure(), path.knot);
         let end = |column: &Column<POINTS>| column[POINTS - 1];
         let length_s = self.h.time_s[k + 1] - self.h.time_s[k];
         // What the rounding of N makes of velocities, places and energies.
-        let force = course.slides * path.normal_rounding;
-        let drift = force / s.least_kg() * length_s;
-        let drift_m = 0.5 * length_s * drift;
+        let force = in_force.slides * path.normal_rounding;
+        let drift = self.take_drift(force / s.least_kg(), length_s);
         let moved = |i| {
             let at = s.degree_of(i);
             (end(&path.step.x[at]) - self.stored(k, at)[0]).abs()
         };
         let (moved, speeds): (f64, f64) =
-            ((0..course.modes.len()).map(moved).sum(), path.fastest.iter().sum());
+            ((0..in_force.modes.len()).map(moved).sum(), path.fastest.iter().sum());
         if let Some(blur) = self.books.blur.get_mut(k) {
-            *blur = force * moved + s.total_kg * speeds * drift;
+            *blur = force * moved + s.total_kg * speeds * drift[1];
         }
-        for i in 0..path.fastest.len() {
-            let fastest = path.fastest[i];
-            let (x, v) = (end(&path.step.x[i]), end(&path.step.v[i]));
-            let rate = [k, k + 1].map(|k| self.acceleration(k, i).abs());
-            let rounding =
-                [self.instant_s * fastest + drift_m, self.instant_s * rate[0].max(rate[1]) + drift];
-            self.compare(k + 1, i, [x, v], rounding);
-            // Between two knots the motion may be faster and go farther than at any.
-            let f = &mut self.figures;
-            f.displacement[1] = larger(f.displacement[1], x);
-            f.velocity[1] = larger(f.velocity[1], fastest);
+        for (i, fastest) in path.fastest.iter().enumerate() {
+            let rates = [k, k + 1].map(|k| self.acceleration(k, i).abs());
+            let end = [end(&path.step.x[i]), end(&path.step.v[i])];
+            self.arrive((k + 1, i), end, [*fastest, rates[0].max(rates[1])], drift);
         }
-        self.drift = [self.drift[0].max(drift_m), self.drift[1].max(drift)];
-        for (i, mode) in course.modes.iter().enumerate().filter(|(i, _)| path.astray[*i][0] > 0.0) {
+        for (i, mode) in in_force.modes.iter().enumerate().filter(|(i, _)| path.astray[*i][0] > 0.0)
+        {
             // What the knot's own defect and the rounding of times explain is no sign.
             let at = s.degree_of(i);
             let [_, stored] = self.stored(k + 1, at);
@@ -491,7 +479,7 @@ impl<'a> Judge<'a, Line<'a>> {
     }
 }
 
-impl Piece {
+impl SpeedPiece {
     /// Whether a motion with these velocities stays in it: between two points a speed passes those at them by less than
     /// a tenth of its range.
     fn holds(&self, w: &Column<POINTS>) -> bool {

@@ -22,7 +22,7 @@ pub(super) fn lists_of(h: &History, degree: usize) -> ([&[f64]; 2], [usize; 2]) 
 }
 
 /// Largest sizes at the knots.
-pub(super) struct KnotSizes {
+struct KnotSizes {
     x: Vec<f64>,
     v: Vec<f64>,
     table: f64,

@@ -8,7 +8,7 @@ use super::super::collocation::{Column, MOST_PASSES, NODES, POINTS, ROUNDING, Ru
 use super::super::ground::Load;
 use super::super::outputs::Outputs;
 use super::super::structure::Structure;
-use super::equations::{Acting, Drive, LineEquations, TABLE, linear};
+use super::equations::{Drive, LineEquations, LineForces, TABLE, linear};
 use crate::numerics::InstructionSet;
 use crate::numerics::instructions::vectorize;
 
@@ -16,7 +16,6 @@ use crate::numerics::instructions::vectorize;
 const MOST_MAPS: usize = 16;
 
 /// A stretch of time under linear loads.
-#[derive(Clone, Copy, Default)]
 pub(super) struct LineStretch {
     pub(super) from_s: f64,
     pub(super) step_s: f64,
@@ -28,7 +27,7 @@ pub(super) struct LineStep {
     /// Displacements and velocities, of which the first point is the start.
     pub(super) x: Vec<Column<POINTS>>,
     pub(super) v: Vec<Column<POINTS>>,
-    pub(super) acting: Acting<POINTS>,
+    pub(super) acting: LineForces<POINTS>,
     pub(super) outputs: Vec<Column<POINTS>>,
 }
 
@@ -36,7 +35,12 @@ impl LineStep {
     pub(super) fn new(structure: &Structure, outputs: usize) -> Self {
         let zeros = |count: usize| vec![[0.0; POINTS]; count];
         let d = structure.degrees();
-        Self { x: zeros(d), v: zeros(d), acting: Acting::new(structure), outputs: zeros(outputs) }
+        Self {
+            x: zeros(d),
+            v: zeros(d),
+            acting: LineForces::new(structure),
+            outputs: zeros(outputs),
+        }
     }
 
     /// The next step starts where this one has ended.
@@ -49,7 +53,7 @@ impl LineStep {
 
 /// The map of a step from its inputs, `x` and `v` at the start and loads at both ends, to `ẍ` at the nodes.
 struct StepMap {
-    /// What it belongs to.
+    /// What is in force in its steps, and their length.
     stuck: Vec<bool>,
     stop: [f64; 2],
     rise: f64,
@@ -74,7 +78,7 @@ impl StepMap {
 struct Nodes {
     x: Vec<Column<NODES>>,
     v: Vec<Column<NODES>>,
-    acting: Acting<NODES>,
+    acting: LineForces<NODES>,
     rates: Vec<Column<NODES>>,
 }
 
@@ -97,12 +101,18 @@ impl<'a> LineStepper<'a> {
             rule: Rule::get(),
             outputs,
             maps: Vec::new(),
-            nodes: Nodes { x: zeros(), v: zeros(), acting: Acting::new(structure), rates: zeros() },
+            nodes: Nodes {
+                x: zeros(),
+                v: zeros(),
+                acting: LineForces::new(structure),
+                rates: zeros(),
+            },
             instructions: InstructionSet::best(),
         }
     }
 
-    /// The motion in a step of a length from what is at its start; `usual_s` is the length of steps that come again.
+    /// The motion in a step of a length from what is at its start; `usual_s` is the length of the steps that come again, if it
+    /// is one of these to within the rounding of times.
     pub(super) fn step(
         &mut self,
         drive: &Drive<'_>,
@@ -120,8 +130,8 @@ impl<'a> LineStepper<'a> {
     }
 
     /// All that acts in a state at an instant.
-    pub(super) fn instant(&self, drive: &Drive<'_>, [x, v]: [&[f64]; 2]) -> Acting<1> {
-        let mut acting = Acting::new(self.equations.structure);
+    pub(super) fn instant(&self, drive: &Drive<'_>, [x, v]: [&[f64]; 2]) -> LineForces<1> {
+        let mut acting = LineForces::new(self.equations.structure);
         let states = [x, v].map(|list| list.as_chunks().0);
         self.equations.act(drive, &[0.0], states, &mut acting);
         acting
@@ -240,5 +250,72 @@ impl<'a> LineStepper<'a> {
         let (at, states) = ((drive, &rule.points), [&x[..], &v[..]]);
         equations.act(drive, at.1, states, acting);
         equations.outputs(self.outputs, at, states, acting, outputs);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::law::Law;
+    use super::super::super::structure::Phase;
+    use super::*;
+    use crate::model::{Block, Damping, Frame, InitialState, Model, Slider};
+    use crate::response::Mode;
+    use crate::slider::{Direction, Friction};
+
+    #[test]
+    fn a_kept_map_is_the_iteration_of_its_step() {
+        for (n, damping) in [
+            (0, Damping::Ratio(0.0)),
+            (1, Damping::Ratio(0.05)),
+            (4, Damping::Ratio(0.05)),
+            (4, Damping::Dampers(vec![90.0; 4])),
+        ] {
+            let frame = Frame {
+                masses_kg: vec![200.0; n],
+                stiffnesses_n_per_m: (0..n).map(|i| 4e4 - 5e3 * i as f64).collect(),
+                damping,
+                heights_m: None,
+            };
+            let slider = Slider::sprung(Friction::new(0.1, 0.08).unwrap(), 5e3);
+            let block = Block { mass_kg: 300.0, width_m: None, height_m: None };
+            let model = Model::new(block, slider, frame, 9.81, InitialState::rest()).unwrap();
+            let (structure, law) = (Structure::new(&model, false), Law::new(&model, false));
+            let outputs = Outputs::new(&model);
+            let equations = LineEquations { structure: &structure, law: &law, slope: 0.0 };
+            let step_s = 0.5 / structure.rate(Phase::Slip);
+            for mode in [Mode::Stick, Mode::Slip(Direction::Positive)] {
+                let drive = Drive {
+                    modes: &[mode],
+                    loads: vec![[1.3, 0.2], [-40.0, -70.0], [3.0; 2]],
+                    stop: [700.0, 20.0],
+                    rise: [90.0; 2],
+                    drag: 6.0,
+                    by_speed: false,
+                    taken: [[0.0; 2]; 2],
+                };
+                let [mapped, solved] = [Some(step_s), None].map(|usual_s| {
+                    let mut step = LineStep::new(&structure, outputs.len());
+                    for (i, column) in step.x.iter_mut().chain(&mut step.v).enumerate() {
+                        column[0] = libm::sin((1 + i * i) as f64);
+                    }
+                    if mode == Mode::Stick {
+                        step.v[0][0] = 0.0;
+                    }
+                    let mut stepper = LineStepper::new(equations, &outputs);
+                    stepper.step(&drive, (step_s, usual_s), &mut step);
+                    assert_eq!(stepper.maps.len(), usize::from(usual_s.is_some()));
+                    step
+                });
+                let lists =
+                    |step: &LineStep| [step.x.clone(), step.v.clone(), step.outputs.clone()];
+                for (mapped, solved) in lists(&mapped).iter().zip(&lists(&solved)) {
+                    let largest = solved.iter().map(most).fold(0.0, f64::max);
+                    for (a, b) in mapped.iter().flatten().zip(solved.iter().flatten()) {
+                        // Some rounding of what is added up.
+                        assert!((a - b).abs() <= 1e-13 * largest, "{n} storeys, {mode:?}: {a} {b}");
+                    }
+                }
+            }
+        }
     }
 }
