@@ -13,7 +13,6 @@ mod energy;
 mod events;
 mod ground;
 mod judge;
-mod lane;
 mod law;
 mod line;
 mod near;

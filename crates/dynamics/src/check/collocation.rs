@@ -14,8 +14,6 @@
 
 use std::sync::LazyLock;
 
-use super::lane::Lane;
-
 /// Nodes of the rule.
 pub(super) const NODES: usize = 8;
 /// Nodes and both ends.
@@ -27,15 +25,40 @@ pub(super) const MOST_PASSES: usize = 100;
 /// Changes below this part of the accelerations may be rounding.
 pub(super) const ROUNDING: f64 = 1e-12;
 
+/// Values at some instants.
+pub(super) type Column<const N: usize> = [f64; N];
+
+/// Adds a multiple of a column.
+#[inline(always)]
+pub(super) fn add<const N: usize>(to: &mut Column<N>, factor: f64, column: &Column<N>) {
+    *to = core::array::from_fn(|i| to[i] + factor * column[i]);
+}
+
+/// `Σ a_i b_i`, of columns.
+#[inline(always)]
+pub(super) fn combined<const N: usize>(columns: &[Column<N>], factors: &[f64]) -> Column<N> {
+    let mut sum = [0.0; N];
+    for (column, factor) in columns.iter().zip(factors) {
+        add(&mut sum, *factor, column);
+    }
+    sum
+}
+
+/// The largest size in a column; what is not a number is none.
+#[inline(always)]
+pub(super) fn most<const N: usize>(column: &Column<N>) -> f64 {
+    column.iter().fold(0.0, |most, x| if x.abs() > most { x.abs() } else { most })
+}
+
 /// Nodes, weights and integrals of the rule, and what interpolates between its points.
 pub(super) struct Rule {
     /// Nodes.
     pub(super) c: [f64; NODES],
     /// Weights `b`.
     pub(super) weights: [f64; NODES],
-    /// `A` and its square.
-    a: [[f64; NODES]; NODES],
-    aa: [[f64; NODES]; NODES],
+    /// `A` and its square, column by column: what `ẍ` at a node does at all.
+    a: [Column<NODES>; NODES],
+    aa: [Column<NODES>; NODES],
     /// 0, the nodes, 1.
     pub(super) points: [f64; POINTS],
     barycentric: [f64; POINTS],
@@ -71,10 +94,10 @@ impl Rule {
         let integral = |i: usize, j: usize| {
             c[i] * (0..NODES).map(|k| weights[k] * lagrange(&c, j, c[i] * c[k])).sum::<f64>()
         };
-        let a: [[f64; NODES]; NODES] =
-            core::array::from_fn(|i| core::array::from_fn(|j| integral(i, j)));
-        let square = |i: usize, j: usize| (0..NODES).map(|k| a[i][k] * a[k][j]).sum();
-        let aa = core::array::from_fn(|i| core::array::from_fn(|j| square(i, j)));
+        let a: [Column<NODES>; NODES] =
+            core::array::from_fn(|j| core::array::from_fn(|i| integral(i, j)));
+        let square = |i: usize, j: usize| (0..NODES).map(|k| a[k][i] * a[j][k]).sum();
+        let aa = core::array::from_fn(|j| core::array::from_fn(|i| square(i, j)));
         let points: [f64; POINTS] = core::array::from_fn(|i| match i {
             0 => 0.0,
             i if i <= NODES => c[i - 1],
@@ -92,35 +115,35 @@ impl Rule {
         lagrange(&self.c, node, t)
     }
 
-    /// `x` and `v` at a node of a step of a length, from those at its start and `ẍ` at all nodes.
+    /// `x` and `v` at the nodes of a step of a length, from those at its start and `ẍ` at the nodes.
     #[inline(always)]
-    pub(super) fn node<L: Lane>(
+    pub(super) fn inside(
         &self,
-        i: usize,
-        h: L,
-        [x0, v0]: [L; 2],
-        rate: impl Fn(usize) -> L,
-    ) -> [L; 2] {
-        let (mut dx, mut dv) = (rate(0) * self.aa[i][0], rate(0) * self.a[i][0]);
-        for j in 1..NODES {
-            let rate = rate(j);
-            dx += rate * self.aa[i][j];
-            dv += rate * self.a[i][j];
-        }
-        [x0 + h * (v0 * self.c[i] + h * dx), v0 + h * dv]
+        h: f64,
+        [x0, v0]: [f64; 2],
+        rates: &Column<NODES>,
+    ) -> [Column<NODES>; 2] {
+        let (dx, dv) = (combined(&self.aa, rates), combined(&self.a, rates));
+        let x = core::array::from_fn(|i| x0 + h * (v0 * self.c[i] + h * dx[i]));
+        [x, dv.map(|dv| v0 + h * dv)]
     }
 
-    /// The same at the end.
+    /// `x` and `v` at the end of the step.
     #[inline(always)]
-    pub(super) fn end<L: Lane>(&self, h: L, [x0, v0]: [L; 2], rate: impl Fn(usize) -> L) -> [L; 2] {
-        let mut dv = rate(0) * self.weights[0];
-        let mut dx = dv * (1.0 - self.c[0]);
-        for j in 1..NODES {
-            let share = rate(j) * self.weights[j];
-            dx += share * (1.0 - self.c[j]);
+    pub(super) fn end(&self, h: f64, [x0, v0]: [f64; 2], rates: &Column<NODES>) -> [f64; 2] {
+        let (mut dx, mut dv) = (0.0, 0.0);
+        for (i, rate) in rates.iter().enumerate() {
+            let share = rate * self.weights[i];
+            dx += share * (1.0 - self.c[i]);
             dv += share;
         }
         [x0 + h * (v0 + h * dx), v0 + h * dv]
+    }
+
+    /// The integral over a step of a length of a polynomial with these values at the points.
+    #[inline(always)]
+    pub(super) fn integral(&self, h: f64, values: &Column<POINTS>) -> f64 {
+        h * self.weights.iter().zip(&values[1..]).map(|(b, value)| b * value).sum::<f64>()
     }
 
     /// The polynomial through `values` at the points, at `t` in [0, 1].
@@ -206,20 +229,6 @@ impl Rule {
 /// Lagrange's polynomial of a node.
 fn lagrange(c: &[f64; NODES], j: usize, t: f64) -> f64 {
     (0..NODES).filter(|&k| k != j).map(|k| (t - c[k]) / (c[j] - c[k])).product()
-}
-
-/// Most Legendre terms of a velocity.
-pub(super) const MOST_TERMS: usize = 9;
-
-/// How many Legendre terms a velocity has over so many radians: what is left out is below 1e-8 of it, its
-/// square below rounding.
-pub(super) fn terms(turn: f64) -> usize {
-    let (mut terms, mut size) = (2, 0.5 * turn);
-    while terms < MOST_TERMS && size > 1e-8 {
-        size *= 0.5 * turn / (2.0 * terms as f64 - 1.0);
-        terms += 1;
-    }
-    terms
 }
 
 /// Legendre's polynomial `P_l(z)`.

@@ -166,51 +166,6 @@ impl<'a> Ground<'a> {
         (self.load((0.0, self.gravity + up), [0.0; 2]).normal, table)
     }
 
-    /// From which sample on, and how many, intervals between these times are those of even samples with
-    /// contact kept or lost throughout. Quick where the times asked for do not decrease.
-    pub(super) fn even(&mut self, times_s: &[f64], [step_s, same_s]: [f64; 2]) -> (usize, usize) {
-        self.seek(times_s[0]);
-        let from = self.cursor;
-        let samples = &self.times_s[from..];
-        let most = samples.len().min(times_s.len()) - 1;
-        let keeps = |i: usize| match self.vertical {
-            Some(_) => self.press(from + i) * self.press(from + i + 1) >= 0.0,
-            None => true,
-        };
-        let is_even = |i: &usize| {
-            times_s[*i] == samples[*i]
-                && times_s[i + 1] == samples[i + 1]
-                && (samples[i + 1] - samples[*i] - step_s).abs() <= same_s
-                && keeps(*i)
-        };
-        (from, (0..most).take_while(is_even).count())
-    }
-
-    /// `Ü` at the samples.
-    pub(super) fn horizontal(&self) -> &'a [f64] {
-        self.horizontal
-    }
-
-    /// `Üv` at the samples.
-    pub(super) fn vertical(&self) -> Option<&'a [f64]> {
-        self.vertical
-    }
-
-    /// `g cos θ`.
-    pub(super) fn gravity(&self) -> f64 {
-        self.gravity
-    }
-
-    /// Mass that presses on the surface.
-    pub(super) fn total_kg(&self) -> f64 {
-        self.total_kg
-    }
-
-    /// `N` without vertical motion.
-    pub(super) fn rest_normal(&self) -> f64 {
-        self.at_rest().normal
-    }
-
     /// Whether the normal force varies.
     pub(super) fn has_vertical(&self) -> bool {
         self.vertical.is_some()

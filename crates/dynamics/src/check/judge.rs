@@ -125,22 +125,18 @@ pub(super) trait Directions {
     fn measure(&mut self) -> Result<bool, Stopped>;
     /// Judges the changes of mode at these knots.
     fn decide(&mut self, changes: &[usize]);
-    /// Judges what may be judged in any order.
-    fn in_any_order(&mut self) -> Result<(), Stopped> {
-        Ok(())
-    }
     /// Judges the intervals of a run in order of time.
     fn go_through(&mut self, run: Run) -> Result<(), Stopped>;
     /// Judges a knot at which no interval ends or begins.
     fn alone(&mut self, k: usize);
     /// Judges what happens between a knot and the one before at the same time; whether a rigid stop is struck.
     fn abreast(&mut self, k: usize) -> bool;
-    /// The closest call of a slip of an interface that ends at a knot.
-    fn slipped(&mut self, i: usize, direction: Direction, to: usize) -> Option<ClosestCall>;
+    /// The closest call of a slip of an interface that has ended.
+    fn slipped(&mut self, i: usize, direction: Direction) -> Option<ClosestCall>;
     /// Judges the knot at which some mode has changed.
     fn changed(&mut self, _: usize) {}
-    /// A phase of an interface begins at a knot.
-    fn begins(&mut self, i: usize, k: usize);
+    /// A phase of an interface begins.
+    fn begins(&mut self, _: usize) {}
     /// Largest inertia that cancels out of what is found, in N.
     fn carried_n(&self) -> f64 {
         0.0
@@ -205,7 +201,6 @@ where
         let begin = self.runs.iter().map(|run| run.from);
         let changes: Vec<usize> = begin.filter(|&k| self.before(k) != self.h.modes(k)).collect();
         self.decide(&changes);
-        self.in_any_order()?;
         self.walk()
     }
 
@@ -245,6 +240,32 @@ where
         f.velocity[0] = larger(f.velocity[0], excess((stored - v).abs() - rounding));
     }
 
+    /// What the rounding of `N` makes of a place and a velocity in an interval of a length, from the acceleration that it
+    /// may be.
+    pub(super) fn take_drift(&mut self, acceleration: f64, length_s: f64) -> [f64; 2] {
+        let drift = acceleration * length_s;
+        let drift_m = 0.5 * length_s * drift;
+        self.drift = [self.drift[0].max(drift_m), self.drift[1].max(drift)];
+        [drift_m, drift]
+    }
+
+    /// Compares the end of a path with the knot stored there, degree by degree: displacement and velocity, less what the
+    /// rounding of times makes of the largest velocity and the largest rate on the way, and that of `N`. Between two
+    /// knots the motion may be faster and go farther than at any.
+    pub(super) fn arrive(
+        &mut self,
+        (k, degree): (usize, usize),
+        end: [f64; 2],
+        [fastest, rate]: [f64; 2],
+        drift: [f64; 2],
+    ) {
+        let rounding = [self.instant_s * fastest + drift[0], self.instant_s * rate + drift[1]];
+        self.compare(k, degree, end, rounding);
+        let f = &mut self.figures;
+        f.displacement[1] = larger(f.displacement[1], end[0]);
+        f.velocity[1] = larger(f.velocity[1], fastest);
+    }
+
     /// Goes from run to run in order of time.
     fn walk(&mut self) -> Result<(), Stopped> {
         let (h, last) = (self.h, self.h.len() - 1);
@@ -275,7 +296,7 @@ where
         }
         self.runs = runs;
         for (i, mode) in h.modes(last).iter().enumerate() {
-            self.close(i, *mode, last);
+            self.close(i, *mode);
         }
         for call in self.near_misses() {
             self.nearest(call);
@@ -293,7 +314,7 @@ where
             if !struck {
                 self.figures.velocity[0] = larger(self.figures.velocity[0], self.speed_at(k, i));
             }
-            self.close(i, before[i], arrived);
+            self.close(i, before[i]);
         }
         if struck || before != after || !h.contact.is_empty() {
             self.events.pass(h, k, struck);
@@ -310,14 +331,14 @@ where
     fn begin(&mut self, i: usize, k: usize) {
         let slack = if self.h.modes(k)[i] == Mode::Stick { 1e-12 } else { self.still };
         self.dips[i] = Dips::new(slack);
-        self.begins(i, k);
+        self.begins(i);
     }
 
-    /// Ends a phase of an interface at a knot: its near decisions are known.
-    fn close(&mut self, i: usize, mode: Mode, to: usize) {
+    /// Ends a phase of an interface: its near decisions are known.
+    fn close(&mut self, i: usize, mode: Mode) {
         let call = match mode {
             Mode::Stick => self.dips[i].least(DecisionKind::Stick, i),
-            Mode::Slip(direction) => self.slipped(i, direction, to),
+            Mode::Slip(direction) => self.slipped(i, direction),
         };
         if let Some(call) = call {
             self.nearest(call);
@@ -325,18 +346,18 @@ where
     }
 
     /// Judges a step of a stick, from a time on and of a length: what an interface is asked for at its points, and
-    /// between two of them where that comes closest to what holds.
+    /// between two of them, by the part of the step, where that comes closest to what holds.
     pub(super) fn held(
         &mut self,
         i: usize,
         (from_s, step_s): (f64, f64),
         rounding_n: f64,
-        asked: impl Fn(&Self, f64) -> StickDemand,
+        at_points: &[StickDemand; POINTS],
+        between: impl Fn(&Self, f64) -> StickDemand,
     ) {
         let rule = Rule::get();
         let mut margins = [f64::NAN; POINTS];
-        for (margin, t) in margins.iter_mut().zip(rule.points) {
-            let asked = asked(self, t);
+        for (margin, asked) in margins.iter_mut().zip(at_points) {
             self.figures.excess = larger(self.figures.excess, excess(asked.beyond() - rounding_n));
             *margin = asked.margin().unwrap_or(f64::NAN);
         }
@@ -347,9 +368,9 @@ where
         let least = dip(&margins);
         for (point, mut found) in rule.points.into_iter().zip(margins).enumerate() {
             if least == Some(point) {
-                let margin = |t: f64| asked(self, t).margin().unwrap_or(f64::INFINITY);
+                let margin = |t: f64| between(self, t).margin().unwrap_or(f64::INFINITY);
                 found = rule.least_of((point, found.1), margin);
-                let broken = excess(-found.1 * asked(self, found.0).bound() - rounding_n);
+                let broken = excess(-found.1 * between(self, found.0).bound() - rounding_n);
                 self.figures.excess = larger(self.figures.excess, broken);
             }
             let (t, margin) = found;

@@ -1,76 +1,48 @@
-//! What is judged in one horizontal direction: intervals do not depend on each other and go side by side.
+//! What is judged in one horizontal direction: from the state stored at a knot the equations of motion are solved to the
+//! next, in physical coordinates, and compared with what is stored there.
 
-mod courses;
 mod decisions;
 mod equations;
-mod group;
-mod intervals;
+mod interval;
 mod knots;
-mod maps;
-mod margins;
-mod order;
-mod path;
-mod peaks;
-mod stored;
-mod sweep;
-mod watch;
-mod work;
+mod step;
 
-use self::knots::{Acting, Knots, LaneJudge, Worst, lists_of};
-use self::watch::Watched;
-use super::collocation::Rule;
+use self::equations::LineEquations;
+use self::interval::LinePath;
+use self::knots::lists_of;
+use self::step::LineStepper;
 use super::demands::{self, Comparison, Recomputed, Rounding};
 use super::energy::Books;
-use super::judge::{Directions, Judge, JudgeInput, Run, Sizes};
+use super::judge::{Directions, Judge, JudgeInput, Run};
 use super::structure::{Phase, Structure, excess, larger};
 use super::{ClosestCall, DecisionKind};
 use crate::error::Stopped;
-use crate::numerics::InstructionSet;
-use crate::numerics::instructions::vectorize;
-use crate::progress::{Pulse, UNWATCHED};
 use crate::response::Mode;
-use crate::response::output::{BLOCK, VELOCITY};
 use crate::slider::Direction;
 
 /// What a judgement in one direction needs besides.
 pub(super) struct Line<'a> {
-    structure: &'a Structure,
+    stepper: LineStepper<'a>,
     /// Largest sizes of the outputs.
     attained: Vec<f64>,
+    /// Upper bounds on the fastest rate where the block sticks, slides, and slides against a stop, in 1/s.
     rates: [f64; 3],
-    knots: Knots,
-    watched: Watched,
-    /// Knots at which the phases under way have begun, by interface.
-    since: Vec<usize>,
-    /// A margin that the closest call has at most.
-    floor: f64,
     /// Step of most intervals of the motion.
     even_s: f64,
-    longest_s: f64,
-    /// Intervals that were swept.
-    #[cfg(test)]
-    swept: usize,
-    instructions: InstructionSet,
 }
 
 impl<'a> Judge<'a, Line<'a>> {
     /// A judgement of a motion in one direction.
     pub(super) fn of_line(given: JudgeInput<'a>, structure: &'a Structure) -> Self {
         let slides = given.model.initial().sliding_velocity_m_per_s != 0.0;
-        let times_s = given.motion.times_s();
+        let (times_s, outputs) = (given.motion.times_s(), given.outputs);
+        let slope = given.model.slope_m_per_s2();
+        let equations = LineEquations { structure, law: given.law, slope };
         let line = Line {
-            structure,
-            attained: Vec::new(),
+            stepper: LineStepper::new(equations, outputs),
+            attained: vec![0.0; outputs.len()],
             rates: [0.0; 3],
-            knots: Knots::default(),
-            watched: Watched::default(),
-            since: vec![0; given.history.interfaces],
-            floor: f64::INFINITY,
             even_s: f64::NAN,
-            longest_s: given.history.time_s.windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max),
-            #[cfg(test)]
-            swept: 0,
-            instructions: InstructionSet::best(),
         };
         let mut judge = Self::new(given, slides, line);
         let (h, law) = (judge.h, judge.law);
@@ -86,34 +58,43 @@ impl<'a> Judge<'a, Line<'a>> {
         judge
     }
 
-    /// What the lanes need.
-    fn bench(&self) -> LaneJudge<'a> {
-        LaneJudge {
-            structure: self.axes.structure,
-            rule: Rule::get(),
-            history: self.h,
-            law: self.law,
-            slope: self.model.slope_m_per_s2(),
-            instant_s: self.instant_s,
-            vertical: self.ground.has_vertical(),
-            instructions: self.axes.instructions,
-        }
+    fn structure(&self) -> &'a Structure {
+        self.axes.stepper.equations.structure
     }
 
     /// What the rounding of times makes of a position at this speed, and of the force of the stop.
     fn slack(&self, w: f64) -> [f64; 2] {
         let slack_m = self.instant_s * w.abs() + 8.0 * f64::EPSILON * self.figures.displacement[1];
-        [slack_m, self.axes.structure.stop_damper() * self.jolt]
+        [slack_m, self.structure().stop_damper() * self.jolt]
+    }
+
+    /// Whether an interface could stick where it slides, without slowing down to it smoothly.
+    fn drops(&self, i: usize, direction: Direction) -> bool {
+        match i.checked_sub(1).map(|e| &self.structure().contents[e]) {
+            None => self.law.drops(direction),
+            Some(contents) => contents.static_friction > contents.kinetic_friction,
+        }
+    }
+
+    /// Raises the peaks by the outputs at the first or the last knot, where no interval tells those that
+    /// are not stored.
+    fn peaks_at_jump(&mut self, k: usize) {
+        let load = self.ground.instant(self.h.time_s[k])[if k == 0 { 1 } else { 2 }];
+        let (drive, [x, v]) = self.at_knot(k, self.h.modes(k), &load);
+        let values = self.axes.stepper.outputs_at(&drive, [&x, &v]);
+        for (peak, value) in self.axes.attained.iter_mut().zip(values) {
+            *peak = larger(*peak, value);
+        }
     }
 }
 
 impl<'a> Directions for Judge<'a, Line<'a>> {
     fn degrees(&self) -> usize {
-        self.axes.structure.degrees()
+        self.structure().degrees()
     }
 
     fn stored(&self, k: usize, degree: usize) -> [f64; 2] {
-        let (lists, [stride, i]) = lists_of(self.h, self.h.storeys, degree);
+        let (lists, [stride, i]) = lists_of(self.h, degree);
         lists.map(|list| list[k * stride + i])
     }
 
@@ -128,61 +109,12 @@ impl<'a> Directions for Judge<'a, Line<'a>> {
     }
 
     fn speed_at(&self, k: usize, interface: usize) -> f64 {
-        self.stored(k, self.axes.structure.degree_of(interface))[1]
+        self.stored(k, self.structure().degree_of(interface))[1]
     }
 
     fn measure(&mut self) -> Result<bool, Stopped> {
         let h = self.h;
-        let (mut stop, mut held) = (Vec::new(), Vec::new());
-        if self.model.stop().is_some() && self.law.restitution().is_none() {
-            let at = |k: usize| (h.sliding_displacement_m[k], h.sliding_velocity_m_per_s[k]);
-            let force = |k: usize| self.law.push(self.contact(k)).force(at(k).0, at(k).1);
-            stop.extend((0..h.len()).map(force));
-        }
-        if self.law.is_pendulum() {
-            held = vec![1.0; h.len()];
-        } else if self.law.restitution().is_some() {
-            // Sliding, the block has left the stop or not yet struck it.
-            let leans = |k: usize| {
-                let s = h.sliding_displacement_m[k];
-                h.modes(k)[0] == Mode::Stick && self.law.leans(s) != [false; 2]
-            };
-            held.extend((0..h.len()).map(|k| if leans(k) { 1.0 } else { 0.0 }));
-        }
-        // At the start and at the end both sides of a jump last.
-        let passed = |k: &usize| h.time_s[k + 1] == h.time_s[*k] && h.time_s[k - 1] == h.time_s[*k];
-        let passed: Vec<usize> = (1..h.len().saturating_sub(1)).filter(passed).collect();
-        let mut worst = Worst::default();
-        let degrees = [self.axes.structure.degrees(), h.storeys];
-        let mut knots = Knots::new(h.len(), self.outputs.len(), degrees);
-        let mut pulse = core::mem::replace(&mut self.pulse, Pulse::new(UNWATCHED));
-        let (bench, outputs) = (self.bench(), self.outputs);
-        let acting = Acting { stop: &stop, held: &held, passed: &passed };
-        let to = (&mut knots, &mut pulse);
-        vectorize!(self.axes.instructions, simd => bench.knots(simd, outputs, &mut worst, acting, to))?;
-        self.pulse = pulse;
-        if worst.broken.0.iter().any(|x| x.is_nan())
-            || !h.surface_displacement_m.iter().all(|u| u.is_finite())
-        {
-            return Ok(false);
-        }
-        let (attained, sizes) = knots.largest();
-        self.axes.attained = attained;
-        let (n, d) = (self.axes.structure.masses_kg.len(), self.axes.structure.degrees());
-        let most = |list: &[f64]| list.iter().fold(0.0, |most: f64, x| most.max(*x));
-        let (x, v, table) = (&sizes[..d], &sizes[d..2 * d], sizes[2 * d]);
-        let (storey, rate) = (most(&x[1..=n]), most(&v[1..]));
-        let place = most(&x[1 + n..]).max(x[0]);
-        let (sliding, block) = (self.axes.attained[VELOCITY], self.axes.attained[BLOCK]);
-        self.take_sizes(&Sizes {
-            displacement_m: storey.max(place),
-            storey_m: storey,
-            velocity: sliding.max(rate),
-            sliding,
-            acceleration: block.max(table),
-            frequency: self.axes.structure.frame_frequency(),
-        });
-        worst.enter(&mut self.figures);
+        let Some(energies) = self.look_at_knots()? else { return Ok(false) };
         if self.model.stop().is_some() {
             for k in 0..h.len() {
                 let at = (h.sliding_displacement_m[k], h.sliding_velocity_m_per_s[k]);
@@ -201,12 +133,7 @@ impl<'a> Directions for Judge<'a, Line<'a>> {
             }
         }
         let stop_j = self.law.push(self.contact(0)).strain(h.sliding_displacement_m[0]);
-        let energies = [&mut knots.kinetic_j, &mut knots.strain_j].map(|list| {
-            list.truncate(h.len());
-            core::mem::take(list)
-        });
         self.books = Books::new(energies, stop_j, [self.ground.has_vertical(), self.law.follows()]);
-        self.axes.knots = knots;
         Ok(true)
     }
 
@@ -214,46 +141,47 @@ impl<'a> Directions for Judge<'a, Line<'a>> {
         self.judge_changes(changes);
     }
 
-    fn in_any_order(&mut self) -> Result<(), Stopped> {
-        self.find_floor();
-        self.side_by_side()?;
-        self.look_again()
-    }
-
     fn go_through(&mut self, run: Run) -> Result<(), Stopped> {
-        self.add_up(run);
-        self.recall_until(run.to);
+        let mut path = LinePath::new(self.structure(), self.outputs.len());
+        for k in run.from..run.to {
+            self.interval(k, &mut path)?;
+            for (i, _) in self.h.modes(k).iter().enumerate().filter(|(_, m)| **m != Mode::Stick) {
+                // Without contact a slip may turn back.
+                let at = self.structure().degree_of(i);
+                let [[start, _], [end, _]] = [k, k + 1].map(|k| self.stored(k, at));
+                self.totals.interfaces[i].path_m += (end - start).abs();
+            }
+            if self.h.surfaces > 0 {
+                self.surfaces(k);
+            }
+        }
         Ok(())
     }
 
     /// By the load that suits it best.
     fn alone(&mut self, k: usize) {
         let h = self.h;
-        let w = h.sliding_velocity_m_per_s[k];
-        let per_n = match h.modes(k)[0] {
-            Mode::Stick => None,
-            Mode::Slip(direction) => Some(match self.sliding(k, h.modes(k)[0]) {
-                Some(sliding) => -sliding.force(0.0),
-                None => {
-                    let factor =
-                        self.law.rate.as_ref().map_or(1.0, |rate| rate.coefficient(w.abs()));
-                    self.law.sliding_load(direction) * factor
-                }
-            }),
-        };
+        let in_force = self.in_force(k, h.modes(k));
+        let (place, w) = (h.sliding_displacement_m[k], h.sliding_velocity_m_per_s[k]);
         let (mut table, mut force) = (f64::INFINITY, f64::INFINITY);
         for load in self.ground.instant(h.time_s[k]) {
             let off = (load.table - h.table_acceleration_m_per_s2[k]).abs();
             table = table.min((off - self.instant_s * load.slope.abs()).max(0.0));
-            let off =
-                per_n.map_or(0.0, |per_n| (h.friction_force_n[k] - per_n * load.normal).abs());
+            let off = match h.modes(k)[0] {
+                Mode::Stick => 0.0,
+                Mode::Slip(_) => {
+                    let drive = self.drive(&in_force, &[load; 2], None);
+                    let own = self.axes.stepper.equations.stored_sliding(&drive, 0, [place, w]);
+                    (h.friction_force_n[k] - own).abs()
+                }
+            };
             let rounding = self.law.most() * load.normal_rounding(self.ground.blur());
             force = force.min(excess(off - rounding));
         }
         self.figures.table[0] = larger(self.figures.table[0], table);
         self.figures.excess = larger(self.figures.excess, force);
         if k == 0 || k + 1 == h.len() {
-            self.beside_jump(k);
+            self.peaks_at_jump(k);
         }
     }
 
@@ -263,7 +191,7 @@ impl<'a> Directions for Judge<'a, Line<'a>> {
         if struck {
             self.books.damping[k - 1] = self.lost_in_impact(k);
         } else {
-            for i in 0..self.axes.structure.degrees() {
+            for i in 0..self.structure().degrees() {
                 self.compare(k, i, self.stored(k - 1, i), [0.0; 2]);
             }
         }
@@ -275,20 +203,8 @@ impl<'a> Directions for Judge<'a, Line<'a>> {
         struck
     }
 
-    fn slipped(&mut self, i: usize, direction: Direction, to: usize) -> Option<ClosestCall> {
-        if !self.drops(i, direction) {
-            return None;
-        }
-        if self.dips[i].so_far() < f64::INFINITY {
-            let knots = self.axes.since[i]..=to;
-            let fastest = knots.fold(0.0, |most, k| self.speed_at(k, i).abs().max(most));
-            self.dips[i].see(fastest);
-        }
-        self.dips[i].least(DecisionKind::Slip, i)
-    }
-
-    fn begins(&mut self, i: usize, k: usize) {
-        self.axes.since[i] = k;
+    fn slipped(&mut self, i: usize, direction: Direction) -> Option<ClosestCall> {
+        if self.drops(i, direction) { self.dips[i].least(DecisionKind::Slip, i) } else { None }
     }
 
     fn compare_demands(&self, c: &mut Comparison, rounding: &Rounding) {
@@ -339,6 +255,8 @@ mod tests {
     use super::*;
     use crate::model::{Block, Damping, Frame, InitialState, Model, Slider};
     use crate::motion::GroundMotion;
+    use crate::numerics::InstructionSet;
+    use crate::progress::{Pulse, UNWATCHED};
     use crate::response::{Demands, History, Method, Response};
     use crate::slider::Friction;
 
@@ -400,25 +318,6 @@ mod tests {
         JudgeInput { model, motion, response, history, law, outputs, pulse: Pulse::new(UNWATCHED) }
     }
 
-    /// The step that a record has is swept with a tail too, which begins with a jump.
-    #[test]
-    fn common_step_is_swept() {
-        for n in [0, 1, 2, 5] {
-            for tail_s in [0.0, 1.0, 1.0037] {
-                let (model, motion, response) = wrong(n, 800, tail_s);
-                assert_eq!(motion.dt_s().is_none(), tail_s > 0.0);
-                let structure = Structure::new(&model, false);
-                let (law, outputs) = (Law::new(&model, false), Outputs::new(&model));
-                let given = given((&model, &motion, &response), (&law, &outputs));
-                let mut judge = Judge::of_line(given, &structure);
-                assert!(judge.measure().unwrap());
-                judge.side_by_side().unwrap();
-                let (swept, intervals) = (judge.axes.swept, motion.len() - 1);
-                assert!(10 * swept > 9 * intervals, "{n} storeys: {swept} of {intervals}");
-            }
-        }
-    }
-
     #[test]
     fn step_of_most_intervals_is_common() {
         assert_eq!(common_step(&[0.0, 1.0, 2.0, 2.0, 3.0, 9.0], 0.0), 1.0);
@@ -436,7 +335,7 @@ mod tests {
                 let (law, outputs) = (Law::new(&model, false), Outputs::new(&model));
                 let given = given((&model, &motion, &response), (&law, &outputs));
                 let mut judge = Judge::of_line(given, &structure);
-                judge.axes.instructions = instructions;
+                judge.axes.stepper.instructions = instructions;
                 judge.run(1e-10).unwrap().unwrap()
             };
             let first = of(InstructionSet::best());

@@ -16,8 +16,6 @@ pub(super) fn dip(values: &[f64; POINTS]) -> Option<usize> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Dips {
     slack: f64,
-    /// The time up to which values were fed, in s.
-    fed_s: f64,
     falling: bool,
     turn: f64,
     turn_s: f64,
@@ -28,20 +26,7 @@ pub(super) struct Dips {
 
 impl Dips {
     pub(super) fn new(slack: f64) -> Self {
-        Self {
-            slack,
-            fed_s: 0.0,
-            falling: false,
-            turn: f64::NAN,
-            turn_s: 0.0,
-            peak: 0.0,
-            least: None,
-        }
-    }
-
-    /// Takes a value that is no minimum.
-    pub(super) fn see(&mut self, value: f64) {
-        self.peak = self.peak.max(value);
+        Self { slack, falling: false, turn: f64::NAN, turn_s: 0.0, peak: 0.0, least: None }
     }
 
     /// The least minimum so far, or ∞.
@@ -87,14 +72,6 @@ impl Dips {
     /// Starts anew after a stretch without values.
     pub(super) fn interrupt(&mut self) {
         (self.falling, self.turn) = (false, f64::NAN);
-    }
-
-    /// Values of an interval follow; perhaps none of the one before did.
-    pub(super) fn resume(&mut self, [from_s, to_s]: [f64; 2]) {
-        if self.fed_s != from_s {
-            self.interrupt();
-        }
-        self.fed_s = to_s;
     }
 
     /// The least minimum of an interface's margin in stick, or of its speed in slip over its largest value.

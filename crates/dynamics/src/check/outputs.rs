@@ -1,7 +1,6 @@
 //! The tracked outputs, and the largest sizes that they attain.
 
-use super::collocation::{POINTS, Rule};
-use super::lane::Lane;
+use super::collocation::{Column, POINTS, Rule, add};
 use crate::model::{Contents, Model};
 use crate::response::output::{BASE_SHEAR, BLOCK, FRICTION, OVERTURNING, Output, SLIDER, VELOCITY};
 
@@ -60,50 +59,48 @@ impl Outputs {
         self.points
     }
 
-    /// Hands on all outputs in their order. Those of the block are its velocity, the forces of slider and
-    /// friction, the base shear and the force on a stop; then come total accelerations, all with the slope's
+    /// Hands on all outputs in their order, at some instants. Those of the block are its velocity, the forces of slider
+    /// and friction, the base shear and the force on a stop; then come total accelerations, all with the slope's
     /// share: of the block, of points beside their displacements, of contents beside their velocities.
     #[inline(always)]
-    pub(super) fn each<L: Lane>(
+    pub(super) fn each<const N: usize>(
         &self,
-        [w, slider, friction, base, stop]: [L; 5],
-        (slope, block): (f64, L),
-        point: impl Fn(usize) -> [L; 2],
-        carried: impl Fn(usize) -> [L; 2],
-        mut out: impl FnMut(usize, L),
+        [w, slider, friction, base, stop]: [&Column<N>; 5],
+        (slope, block): (f64, &Column<N>),
+        point: impl Fn(usize) -> [Column<N>; 2],
+        carried: impl Fn(usize) -> [Column<N>; 2],
+        mut out: impl FnMut(usize, Column<N>),
     ) {
-        let fixed = [
-            (VELOCITY, w),
-            (BLOCK, block - slope),
-            (SLIDER, slider),
-            (FRICTION, friction),
-            (BASE_SHEAR, base),
-            (self.of_stop(), stop),
-        ];
-        for (g, value) in fixed {
-            out(g, value);
-        }
+        let less_slope = |total: &Column<N>| total.map(|total| total - slope);
+        out(VELOCITY, *w);
+        out(BLOCK, less_slope(block));
+        out(SLIDER, *slider);
+        out(FRICTION, *friction);
+        out(BASE_SHEAR, *base);
+        out(self.of_stop(), *stop);
         // The moment about the sliding surface.
-        let mut moment = self.arm.as_ref().map(|arm| (arm, block * arm.block));
+        let mut moment = self.arm.as_ref().map(|arm| (arm, block.map(|block| block * arm.block)));
         let mut below = None;
         for i in 0..self.points {
             let [q, total] = point(i);
             out(self.place(Output::Displacement(i)), q);
             if let Some(below) = below {
-                out(self.place(Output::Drift(i)), q - below);
+                let mut drift = q;
+                add(&mut drift, -1.0, &below);
+                out(self.place(Output::Drift(i)), drift);
             }
-            out(self.place(Output::Acceleration(i)), total - slope);
+            out(self.place(Output::Acceleration(i)), less_slope(&total));
             below = Some(q);
             if let Some((arm, sum)) = &mut moment {
-                *sum += total * arm.floors[i];
+                add(sum, arm.floors[i], &total);
             }
         }
         for e in 0..self.contents {
             let [velocity, total] = carried(e);
             out(self.place(Output::ContentsVelocity(e)), velocity);
-            out(self.place(Output::ContentsAcceleration(e)), total - slope);
+            out(self.place(Output::ContentsAcceleration(e)), less_slope(&total));
             if let Some((arm, sum)) = &mut moment {
-                *sum += total * arm.contents[e];
+                add(sum, arm.contents[e], &total);
             }
         }
         if let Some((_, sum)) = moment {
@@ -114,19 +111,19 @@ impl Outputs {
     /// Displacement and total acceleration of a point, from those of floors or oscillators: `Σ φ η` and
     /// `Σ φ η̈ + u`.
     #[inline(always)]
-    pub(super) fn point<L: Lane>(
+    pub(super) fn point<const N: usize>(
         &self,
         i: usize,
-        block: L,
-        x: impl Fn(usize) -> L,
-        a: impl Fn(usize) -> L,
-    ) -> [L; 2] {
+        block: &Column<N>,
+        x: impl Fn(usize) -> Column<N>,
+        a: impl Fn(usize) -> Column<N>,
+    ) -> [Column<N>; 2] {
         let Some(of_modes) = &self.of_modes else { return [x(i), a(i)] };
         let (factors, with_block) = &of_modes[i];
-        let mut sums = [x(0) * factors[0], block * *with_block + a(0) * factors[0]];
-        for (j, &factor) in factors.iter().enumerate().skip(1) {
-            sums[0] += x(j) * factor;
-            sums[1] += a(j) * factor;
+        let mut sums = [[0.0; N], block.map(|block| block * with_block)];
+        for (j, factor) in factors.iter().enumerate() {
+            add(&mut sums[0], *factor, &x(j));
+            add(&mut sums[1], *factor, &a(j));
         }
         sums
     }
@@ -187,7 +184,15 @@ pub(super) fn raise(
     true
 }
 
+/// Whether a polynomial through values at the points stays below a peak, whichever these values are: between two points
+/// it rises above both by less than a tenth of its range.
+#[inline(always)]
+pub(super) fn is_below(values: &[f64; POINTS], peak: f64) -> bool {
+    values.iter().fold(true, |below, value| below & (1.2 * value.abs() <= peak))
+}
+
 /// Raises a peak to the largest size of a polynomial through the values at the points of a step, likewise.
+#[inline]
 pub(super) fn raise_size(
     rule: &Rule,
     peak: &mut f64,

@@ -1,15 +1,7 @@
 //! Kinetic friction by sliding speed.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
-
-use super::lane::{larger, smaller};
 use crate::model::Model;
 use crate::slider::{Direction, RateCurve};
-
-/// Up to which exponent so many terms of the series of exp leave less than rounding.
-const SERIES: f64 = 0.6;
-const TERMS: usize = 14;
 
 /// `μ_k(|ṡ|)` for a factor of 1:
 ///
@@ -72,49 +64,6 @@ impl RateFriction {
         self.drop * libm::exp(-self.rate_s_per_m * speed_m_per_s)
     }
 
-    /// The same of eight speeds.
-    #[inline(always)]
-    pub(super) fn faded_of<S: Simd>(&self, simd: S, speed: f64x8<S>) -> f64x8<S> {
-        if self.drop == 0.0 {
-            return f64x8::splat(simd, 0.0);
-        }
-        let mut lanes = speed.to_array();
-        for lane in &mut lanes {
-            *lane = self.faded(*lane);
-        }
-        f64x8::load_array(simd, lanes)
-    }
-
-    /// `μ_k` at eight speeds, for a factor of 1, from `[|ṡ|, (μ_fast − μ_slow) exp(−α |ṡ|)]` near them.
-    #[inline(always)]
-    pub(super) fn coefficients<S: Simd>(
-        &self,
-        simd: S,
-        speed: f64x8<S>,
-        [near, faded]: [f64x8<S>; 2],
-    ) -> f64x8<S> {
-        let all = f64x8::splat;
-        let (zero, mut mu) = (all(simd, 0.0), all(simd, self.base));
-        for &[from, width, slope] in &self.pieces {
-            let above = larger(zero, speed - all(simd, from));
-            mu += all(simd, slope) * smaller(all(simd, width), above);
-        }
-        if self.drop != 0.0 {
-            let z = all(simd, self.rate_s_per_m) * (near - speed);
-            if z.abs().simd_le(all(simd, SERIES)).all_true() {
-                // exp(z) = 1 + z (1 + z/2 (1 + z/3 (…))).
-                let mut exp = all(simd, 1.0);
-                for k in (1..=TERMS).rev() {
-                    exp = all(simd, 1.0) + z * all(simd, 1.0 / k as f64) * exp;
-                }
-                mu -= faded * exp;
-            } else {
-                mu -= self.faded_of(simd, speed);
-            }
-        }
-        mu
-    }
-
     /// The straight piece of `μ_k` in which two speeds lie, for a factor of 1: between which speeds, and
     /// `μ_k = c + m |ṡ|`.
     pub(super) fn piece(&self, speeds_m_per_s: [f64; 2]) -> Option<([f64; 2], [f64; 2])> {
@@ -167,11 +116,9 @@ impl RateFriction {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::InstructionSet;
-    use crate::numerics::instructions::vectorize;
     use crate::slider::{Friction, RateLaw};
 
-    /// As the definition of the law has it, alone, in lanes and piece by piece.
+    /// As the definition of the law has it, alone and piece by piece.
     #[test]
     fn is_the_law() {
         let pieces = RateCurve::Pieces {
@@ -190,14 +137,6 @@ mod tests {
                 for way in Direction::BOTH {
                     let (found, expected) = (own.factor(way) * mu, law.at(speed, way));
                     assert!((found - expected).abs() < 1e-16, "{speed}: {found} {expected}");
-                }
-                for near in [0.0, speed - 0.02, speed + 0.02] {
-                    let lanes = vectorize!(InstructionSet::best(), simd => {
-                        let [near, speed] = [near, speed].map(|x| f64x8::splat(simd, x));
-                        let faded = own.faded_of(simd, near);
-                        own.coefficients(simd, speed, [near, faded]).to_array()
-                    });
-                    assert!((lanes[3] - mu).abs() < 1e-16, "{speed}: {} {mu}", lanes[3]);
                 }
                 if let Some((band, [c, m])) = own.piece([speed; 2]) {
                     assert!(band[0] <= speed && speed <= band[1] && own.pieces.len() > 1);

@@ -4,6 +4,7 @@
 //! and `v = (ṡ, q̇, ṙ)` have one entry for the block, one a storey and one an item of contents; `B` is the block's total
 //! acceleration with the slope, `s̈ + a`.
 
+use super::collocation::{Column, add, combined, most};
 use super::damping::modal_damping;
 use crate::model::{Contents, Damping, Model, StopKind};
 
@@ -31,8 +32,6 @@ pub(super) struct Structure {
     pub(super) masses_kg: Vec<f64>,
     /// Whether each of them stands on the block, as the oscillators of modes do, not on the one below.
     pub(super) on_block: bool,
-    /// Number of points.
-    pub(super) points: usize,
     /// What moves with each degree: the momentum is their sum with the velocities.
     pub(super) moved_kg: Vec<f64>,
     pub(super) spring: f64,
@@ -88,7 +87,6 @@ impl Structure {
             total_kg: model.total_mass_kg(),
             masses_kg: m.clone(),
             on_block,
-            points: model.points(),
             spring: match model.slider().pendulum_radius_m(vertical).filter(|_| vertical) {
                 Some(_) => 0.0,
                 None => model.slider_stiffness_n_per_m(),
@@ -181,9 +179,75 @@ impl Structure {
         2.0 * chain.iter().take(on_block).sum::<f64>()
     }
 
-    /// Stiffnesses with whether each is that of a spring to the block.
-    pub(super) fn springs(&self) -> (&[f64], bool) {
-        (&self.stiffnesses, self.on_block)
+    /// Adds `K q` floor by floor; returns the largest single term.
+    #[inline(always)]
+    pub(super) fn add_elastic<const N: usize>(&self, q: &[Column<N>], to: &mut [Column<N>]) -> f64 {
+        self.add_chain(&self.stiffnesses, q, to)
+    }
+
+    /// Adds `C q̇` floor by floor; returns the largest single term.
+    #[inline(always)]
+    pub(super) fn add_viscous<const N: usize>(&self, v: &[Column<N>], to: &mut [Column<N>]) -> f64 {
+        let rows = match &self.damping {
+            StoreyDamping::Chain(c) => return self.add_chain(c, v, to),
+            StoreyDamping::Full(rows) => rows.chunks_exact(v.len()),
+        };
+        let mut term = 0.0_f64;
+        for (to, row) in to.iter_mut().zip(rows) {
+            add(to, 1.0, &combined(v, row));
+            term = row.iter().zip(v).fold(term, |term, (c, v)| term.max(c.abs() * most(v)));
+        }
+        term
+    }
+
+    /// The same of springs or dampers between neighbouring floors, or to the block.
+    #[inline(always)]
+    fn add_chain<const N: usize>(
+        &self,
+        chain: &[f64],
+        x: &[Column<N>],
+        to: &mut [Column<N>],
+    ) -> f64 {
+        let (mut below, mut term) = ([0.0; N], 0.0_f64);
+        for (i, (c, here)) in chain.iter().zip(x).enumerate() {
+            let mut over = *here;
+            add(&mut over, -1.0, &below);
+            add(&mut to[i], *c, &over);
+            if i > 0 && !self.on_block {
+                add(&mut to[i - 1], -c, &over);
+            }
+            term = term.max(c * most(here).max(most(&below)));
+            if !self.on_block {
+                below = *here;
+            }
+        }
+        term
+    }
+
+    /// `1ᵀ (K q + C q̇)`, with which the storeys act on the block.
+    #[inline(always)]
+    pub(super) fn base_shear<const N: usize>(&self, q: &[Column<N>], v: &[Column<N>]) -> Column<N> {
+        let mut sum = [0.0; N];
+        let on_block = if self.on_block { q.len() } else { 1 };
+        for (k, q) in self.stiffnesses.iter().zip(q).take(on_block) {
+            add(&mut sum, *k, q);
+        }
+        for (c, v) in self.base_damping.iter().zip(v) {
+            add(&mut sum, *c, v);
+        }
+        sum
+    }
+
+    /// `qᵀ K q`, by drifts.
+    pub(super) fn elastic_form(&self, q: &[Column<1>]) -> f64 {
+        let (mut below, mut sum) = (0.0, 0.0);
+        for (k, [here]) in self.stiffnesses.iter().zip(q) {
+            sum += k * (here - below) * (here - below);
+            if !self.on_block {
+                below = *here;
+            }
+        }
+        sum
     }
 }
 

@@ -1,317 +1,254 @@
-//! The equations of motion in lanes, with all forces and outputs of an instant. Between two knots all laws but
-//! friction by speed are affine with numbers of the lane:
+//! The equations of motion in one direction, eqs (9), (10), with all forces and outputs, at some instants of a step.
+//!
+//! With `a = Ü + g sin θ`, the block's acceleration `B = s̈ + a` and what contents that slide do to their floors,
+//! `p = sgn(ṙ) μ_k m N/M`:
 //!
 //! ```text
-//! T = N (p₀ − p₁ s − p₂ ṡ)                             in a slip, or N p₀ μ(|ṡ|) with friction by speed
-//! F = T − (K1 + N/R) s − C1 ṡ − (k s + c ṡ − shift)     with the spring of a pendulum and an elastic stop
+//! block     M1 B = T + 1ᵀ(K q + C q̇) + Σ p − (K1 + N/R) s − C1 ṡ − (k s + c ṡ − shift)      in stick B = a
+//! floors    M (q̈ + 1 B) = −(K q + C q̇) + p
+//! contents  m (r̈ + acceleration of the floor) = −p; where they stick, their mass is the floor's
+//! slip      T = N (p₀ − p₁ s − p₂ ṡ), or N p₀ μ(|ṡ|)
+//! stick     T = M1 a − 1ᵀ(K q + C q̇) − Σ p + (K1 + N/R) s + k s − shift                      eqs (8), (14)
 //! ```
 //!
-//! and contents add their mass to a floor that they stick to, or pull at it with `μ m N/M`.
+//! `k`, `c` and the shift are those of an elastic stop that is pressed, `p₁` is of surfaces in series, `N/R` of a pendulum
+//! under vertical motion. But for friction by speed all is affine, with numbers that are constant or linear in time.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
-
-use super::super::collocation::NODES;
-use super::super::lane::{Eight, all, both, inlined, larger, smaller};
+use super::super::collocation::{Column, add};
+use super::super::law::Law;
 use super::super::outputs::Outputs;
-use super::super::structure::StoreyDamping;
-use super::group::Group;
-use super::knots::LaneJudge;
-use super::work::Work;
-use crate::numerics::instructions::vectorize;
-use crate::response::output::FRICTION;
+use super::super::structure::Structure;
+use crate::response::Mode;
 
-/// Loads and springs at a part of a step.
-#[derive(Clone, Copy)]
-pub(super) struct Now<S: Simd> {
-    pub(super) a: f64x8<S>,
-    /// `N p₀ + shift` in slip, `shift` in stick.
-    pub(super) load: f64x8<S>,
-    pub(super) rise: f64x8<S>,
-    pub(super) part: f64,
+/// Places in the loads of a step: `a`, `N p₀` in a slip, the shift of the stop, and from there on the pulls of contents
+/// over their masses.
+pub(super) const TABLE: usize = 0;
+pub(super) const FRICTION_LOAD: usize = 1;
+pub(super) const SHIFT: usize = 2;
+pub(super) const PULLS: usize = 3;
+
+/// What is in force in a step, and the loads that drive it.
+#[derive(Clone)]
+pub(super) struct Drive<'a> {
+    pub(super) modes: &'a [Mode],
+    /// Loads at the start and at the end, between which they are linear.
+    pub(super) loads: Vec<[f64; 2]>,
+    /// Stiffness and damper of an elastic stop that is pressed.
+    pub(super) stop: [f64; 2],
+    /// `N p₁ + N/R` at the start and at the end.
+    pub(super) rise: [f64; 2],
+    /// `N p₂` where friction by speed is in a straight piece.
+    pub(super) drag: f64,
+    /// Whether `T` is `N p₀ μ(|ṡ|)`.
+    pub(super) by_speed: bool,
+    /// Least and largest demand that friction takes, each at the start and at the end; a rigid stop takes the rest.
+    pub(super) taken: [[f64; 2]; 2],
 }
 
-impl LaneJudge<'_> {
-    /// Loads at a part of a step.
+impl Drive<'_> {
+    pub(super) fn sticks(&self, interface: usize) -> bool {
+        self.modes[interface] == Mode::Stick
+    }
+
+    /// A load at parts of the step.
     #[inline(always)]
-    pub(super) fn at<S: Simd>(&self, simd: S, group: &Group, input: &[Eight], part: f64) -> Now<S> {
-        let d = self.structure.degrees();
-        let linear = inlined!(|from: &Eight, to: &Eight| {
-            let from = from.load(simd);
-            from + (to.load(simd) - from) * all(simd, part)
-        });
-        Now {
-            a: linear(&input[2 * d], &input[2 * d + 1]),
-            load: linear(&input[2 * d + 2], &input[2 * d + 3]),
-            rise: if self.law.follows() {
-                linear(&group.rise[0], &group.rise[1])
-            } else {
-                all(simd, 0.0)
-            },
-            part,
+    fn load<const N: usize>(&self, load: usize, parts: &Column<N>) -> Column<N> {
+        linear(self.loads[load], parts)
+    }
+}
+
+/// What goes linearly from one value to another, at parts of the way.
+#[inline(always)]
+pub(super) fn linear<const N: usize>([from, to]: [f64; 2], parts: &Column<N>) -> Column<N> {
+    parts.map(|part| from + (to - from) * part)
+}
+
+/// What acts at some instants.
+pub(super) struct LineForces<const N: usize> {
+    /// Accelerations of the block, the floors and the contents, with the slope's share.
+    pub(super) bodies: Vec<Column<N>>,
+    /// `C q̇`.
+    pub(super) viscous: Vec<Column<N>>,
+    /// `T`; in stick the demand.
+    pub(super) friction: Column<N>,
+    /// `T` in a slip, but for what follows `s`.
+    pub(super) sliding: Column<N>,
+    /// `1ᵀ (K q + C q̇)`.
+    pub(super) shear: Column<N>,
+    /// `N p₁ + N/R`.
+    pub(super) rise: Column<N>,
+}
+
+impl<const N: usize> LineForces<N> {
+    /// Room for a structure.
+    pub(super) fn new(structure: &Structure) -> Self {
+        Self {
+            bodies: vec![[0.0; N]; structure.degrees()],
+            viscous: vec![[0.0; N]; structure.masses_kg.len()],
+            friction: [0.0; N],
+            sliding: [0.0; N],
+            shear: [0.0; N],
+            rise: [0.0; N],
         }
     }
+}
 
-    /// `μ m N/M` of contents that slide, over their mass, at a part of a step.
-    #[inline(always)]
-    pub(super) fn pull<S: Simd>(&self, simd: S, input: &[Eight], e: usize, part: f64) -> f64x8<S> {
-        let at = 2 * self.structure.degrees() + 4 + 2 * e;
-        let from = input[at].load(simd);
-        from + (input[at + 1].load(simd) - from) * all(simd, part)
+/// Masses, springs, dampers and laws in one direction.
+#[derive(Clone, Copy)]
+pub(super) struct LineEquations<'a> {
+    pub(super) structure: &'a Structure,
+    pub(super) law: &'a Law,
+    /// `g sin θ`.
+    pub(super) slope: f64,
+}
+
+impl LineEquations<'_> {
+    /// How many loads a step has.
+    pub(super) fn loads(&self) -> usize {
+        PULLS + self.structure.contents.len()
     }
 
-    /// The shear of the lowest storey and the pull of contents that slide on the block.
+    /// Mass of the block (0) or of a floor with what sticks to it.
     #[inline(always)]
-    pub(super) fn on_block<S: Simd>(
-        &self,
-        simd: S,
-        now: Now<S>,
-        (x, v): (impl Fn(usize) -> f64x8<S> + Copy, impl Fn(usize) -> f64x8<S> + Copy),
-        input: &[Eight],
-    ) -> [f64x8<S>; 2] {
-        let shear =
-            self.base_force(simd, inlined!(|j: usize| x(1 + j)), inlined!(|j: usize| v(1 + j)));
-        let mut pull = all(simd, 0.0);
-        let contents = self.structure.contents.iter().enumerate();
-        for (e, contents) in contents.filter(|(_, contents)| contents.floor == 0) {
-            pull += all(simd, contents.mass_kg) * self.pull(simd, input, e, now.part);
-        }
-        [shear, pull]
-    }
-
-    /// Accelerations of all bodies in a state: eqs (9), (10). Returns the shear of the lowest storey and
-    /// the pull of contents that slide on the block.
-    #[inline(always)]
-    #[allow(clippy::too_many_arguments)] // an instant
-    pub(super) fn accelerate<S: Simd>(
-        &self,
-        simd: S,
-        n: usize,
-        group: &Group,
-        now: Now<S>,
-        (x, v): (impl Fn(usize) -> f64x8<S> + Copy, impl Fn(usize) -> f64x8<S> + Copy),
-        input: &[Eight],
-        bodies: &mut [Eight],
-    ) -> [f64x8<S>; 2] {
+    pub(super) fn mass(&self, drive: &Drive<'_>, floor: usize) -> f64 {
         let s = self.structure;
-        let [shear, pull] = self.on_block(simd, now, (x, v), input);
-        let shift = group.stop[2].load(simd);
-        let force = match &self.law.rate {
-            Some(_) => self.sliding_force(simd, group, (v(0), now.load - shift), input) + shift,
-            None => now.load,
-        };
-        let spring = all(simd, s.spring) + group.stop[0].load(simd) + now.rise;
-        let damper = all(simd, s.damper) + group.stop[1].load(simd);
-        let slider = force - damper * v(0) - spring * x(0);
-        let sliding = (slider + shear + pull) * group.inverse[0].load(simd);
-        let stuck = group.stuck.load(simd).simd_gt(all(simd, 0.0));
-        let block = stuck.select(now.a, sliding);
-        bodies[0].store(block);
-        for k in 0..n {
-            // Oscillators of modes stand each on the block, floors on the one below.
-            let (lowest, highest) = (k == 0 || s.on_block, k + 1 == n || s.on_block);
-            let below = if lowest { all(simd, 0.0) } else { x(k) };
-            let mut force = all(simd, s.stiffnesses[k]) * (x(k + 1) - below);
-            if !highest {
-                let above = x(k + 2) - x(k + 1);
-                force -= all(simd, s.stiffnesses[k + 1]) * above;
+        let own = floor.checked_sub(1).map_or(s.block_kg, |floor| s.masses_kg[floor]);
+        let stuck = s.contents.iter().enumerate().filter(|(e, _)| drive.sticks(1 + e));
+        stuck.filter(|(_, c)| c.floor == floor).fold(own, |sum, (_, c)| sum + c.mass_kg)
+    }
+
+    /// `T` in a slip, but for what follows `s`.
+    #[inline(always)]
+    pub(super) fn sliding(&self, drive: &Drive<'_>, load: f64, w: f64) -> f64 {
+        match &self.law.rate {
+            Some(rate) if drive.by_speed => load * rate.coefficient(w.abs()),
+            _ => load - drive.drag * w,
+        }
+    }
+
+    /// `T` in a slip at the start (0) or the end (1), of `s` and `ṡ`.
+    pub(super) fn stored_sliding(&self, drive: &Drive<'_>, end: usize, [s, w]: [f64; 2]) -> f64 {
+        let follows = if self.law.series.is_some() { drive.rise[end] * s } else { 0.0 };
+        self.sliding(drive, drive.loads[FRICTION_LOAD][end], w) - follows
+    }
+
+    /// `T` in a slip at some instants, but for what follows `s`.
+    #[inline(always)]
+    fn sliding_forces<const N: usize>(
+        &self,
+        drive: &Drive<'_>,
+        parts: &Column<N>,
+        w: &Column<N>,
+    ) -> Column<N> {
+        let mut force = drive.load(FRICTION_LOAD, parts);
+        if drive.by_speed || drive.drag != 0.0 {
+            force = core::array::from_fn(|i| self.sliding(drive, force[i], w[i]));
+        }
+        force
+    }
+
+    /// All that acts in states under what drives them.
+    #[inline(always)]
+    pub(super) fn act<const N: usize>(
+        &self,
+        drive: &Drive<'_>,
+        parts: &Column<N>,
+        [x, v]: [&[Column<N>]; 2],
+        to: &mut LineForces<N>,
+    ) {
+        let s = self.structure;
+        let n = s.masses_kg.len();
+        let (a, shift) = (drive.load(TABLE, parts), drive.load(SHIFT, parts));
+        let (rise, sliding) = (linear(drive.rise, parts), self.sliding_forces(drive, parts, &v[0]));
+        let shear = s.base_shear(&x[1..=n], &v[1..=n]);
+        let LineForces { bodies, viscous, .. } = to;
+        viscous.fill([0.0; N]);
+        s.add_viscous(&v[1..=n], viscous);
+        bodies[1..=n].copy_from_slice(viscous);
+        s.add_elastic(&x[1..=n], &mut bodies[1..=n]);
+        // What the structure and contents that slide do to the block.
+        let mut pushed = shear;
+        for (e, contents) in s.contents.iter().enumerate() {
+            let pull = drive.load(PULLS + e, parts);
+            match contents.floor {
+                0 => add(&mut pushed, contents.mass_kg, &pull),
+                floor => add(&mut bodies[floor], -contents.mass_kg, &pull),
             }
-            match &s.damping {
-                StoreyDamping::Chain(c) => {
-                    let below = if lowest { all(simd, 0.0) } else { v(k) };
-                    force += all(simd, c[k]) * (v(k + 1) - below);
-                    if !highest {
-                        let above = v(k + 2) - v(k + 1);
-                        force -= all(simd, c[k + 1]) * above;
-                    }
-                }
-                StoreyDamping::Full(c) => {
-                    for j in 0..n {
-                        force += all(simd, c[k * n + j]) * v(1 + j);
-                    }
-                }
-            }
-            for (e, contents) in s.contents.iter().enumerate().filter(|(_, c)| c.floor == k + 1) {
-                force -= all(simd, contents.mass_kg) * self.pull(simd, input, e, now.part);
-            }
-            bodies[1 + k].store(-(force * group.inverse[1 + k].load(simd)));
+        }
+        for floor in 1..=n {
+            let per_kg = 1.0 / self.mass(drive, floor);
+            bodies[floor] = bodies[floor].map(|force| -(force * per_kg));
+        }
+        let (mass, sticks) = (self.mass(drive, 0), drive.sticks(0));
+        let in_series = self.law.series.is_some();
+        let (per_kg, damper) = (1.0 / mass, s.damper + drive.stop[1]);
+        for i in 0..N {
+            let spring = (s.spring + drive.stop[0] + rise[i]) * x[0][i];
+            let slides = sliding[i] + shift[i] - damper * v[0][i] - spring + pushed[i];
+            bodies[0][i] = if sticks { a[i] } else { slides * per_kg };
+            let held = mass * a[i] - pushed[i] + spring - shift[i];
+            let follows = if in_series { rise[i] * x[0][i] } else { 0.0 };
+            to.friction[i] = if sticks { held } else { sliding[i] - follows };
         }
         for (e, contents) in s.contents.iter().enumerate() {
-            let under = bodies[contents.floor].load(simd);
-            let stuck = group.carried[e].stuck.load(simd).simd_gt(all(simd, 0.0));
-            let slides = -self.pull(simd, input, e, now.part);
-            bodies[1 + n + e].store(stuck.select(under, slides));
+            bodies[1 + n + e] = match drive.sticks(1 + e) {
+                true => bodies[contents.floor],
+                false => drive.load(PULLS + e, parts).map(|pull| -pull),
+            };
         }
-        [shear, pull]
+        (to.sliding, to.shear, to.rise) = (sliding, shear, rise);
     }
 
     /// `ẍ` of a degree from the accelerations of all bodies.
     #[inline(always)]
-    pub(super) fn rate<S: Simd>(
+    pub(super) fn rate<const N: usize>(
         &self,
-        simd: S,
-        (n, k): (usize, usize),
-        a: f64x8<S>,
-        bodies: &[Eight],
-    ) -> f64x8<S> {
-        let own = bodies[k].load(simd);
-        if k == 0 {
-            own - a
-        } else if k <= n {
-            own - bodies[0].load(simd)
-        } else {
-            own - bodies[self.structure.contents[k - 1 - n].floor].load(simd)
-        }
+        degree: usize,
+        a: &Column<N>,
+        bodies: &[Column<N>],
+    ) -> Column<N> {
+        let n = self.structure.masses_kg.len();
+        let under = match degree {
+            0 => a,
+            k if k <= n => &bodies[0],
+            k => &bodies[self.structure.contents[k - 1 - n].floor],
+        };
+        core::array::from_fn(|i| bodies[degree][i] - under[i])
     }
 
-    /// `T` in a slip at a velocity, of a load of sliding: with friction by speed `μ(|ṡ|)` times it, within a
-    /// straight piece less what rises with the velocity.
+    /// All outputs from state, accelerations and forces: what cancels in them is nothing. Against a rigid stop friction
+    /// takes what it can of the demand, the stop the rest.
     #[inline(always)]
-    pub(super) fn sliding_force<S: Simd>(
+    pub(super) fn outputs<const N: usize>(
         &self,
-        simd: S,
-        group: &Group,
-        (w, load): (f64x8<S>, f64x8<S>),
-        input: &[Eight],
-    ) -> f64x8<S> {
-        match &self.law.rate {
-            None => load,
-            Some(_) if group.affine => load - group.drag.load(simd) * w,
-            Some(rate) => {
-                let near = [input[input.len() - 2].load(simd), input[input.len() - 1].load(simd)];
-                load * rate.coefficients(simd, w.abs(), near)
+        outputs: &Outputs,
+        (drive, parts): (&Drive<'_>, &Column<N>),
+        [x, v]: [&[Column<N>]; 2],
+        acting: &LineForces<N>,
+        out: &mut [Column<N>],
+    ) {
+        let (s, bodies) = (self.structure, &acting.bodies);
+        let n = s.masses_kg.len();
+        let shift = drive.load(SHIFT, parts);
+        let taken = drive.taken.map(|taken| linear(taken, parts));
+        let (is_rigid, in_series) = (self.law.restitution().is_some(), self.law.series.is_some());
+        let (mut stop, mut slider, mut friction) = ([0.0; N], [0.0; N], acting.friction);
+        for i in 0..N {
+            let restoring = if in_series { 0.0 } else { acting.rise[i] };
+            stop[i] = drive.stop[0] * x[0][i] + drive.stop[1] * v[0][i] - shift[i];
+            slider[i] =
+                friction[i] - (s.spring + restoring) * x[0][i] - s.damper * v[0][i] - stop[i];
+            if is_rigid {
+                friction[i] = friction[i].max(taken[0][i]).min(taken[1][i]);
+                stop[i] += friction[i] - acting.friction[i];
             }
         }
-    }
-
-    /// `T`, in stick the demand: eqs (8), (14).
-    #[inline(always)]
-    #[allow(clippy::too_many_arguments)] // an instant
-    pub(super) fn friction<S: Simd>(
-        &self,
-        simd: S,
-        group: &Group,
-        now: Now<S>,
-        (s, w): (f64x8<S>, f64x8<S>),
-        [shear, pull]: [f64x8<S>; 2],
-        input: &[Eight],
-    ) -> f64x8<S> {
-        let structure = self.structure;
-        let shift = group.stop[2].load(simd);
-        let spring = all(simd, structure.spring) + group.stop[0].load(simd) + now.rise;
-        let held = group.mass[0].load(simd) * now.a - shear - pull + spring * s - shift;
-        let slid = self.sliding_force(simd, group, (w, now.load - shift), input);
-        let slid = if self.law.series.is_some() { slid - now.rise * s } else { slid };
-        group.stuck.load(simd).simd_gt(all(simd, 0.0)).select(held, slid)
-    }
-
-    /// Accelerations and `T` at the start (0) or the end (1) of a step.
-    #[inline(always)]
-    pub(super) fn ask<S: Simd>(
-        &self,
-        simd: S,
-        n: usize,
-        group: &Group,
-        end: usize,
-        work: &mut Work,
-    ) {
-        let d = self.structure.degrees();
-        let Work { input, path, bodies, ends, .. } = work;
-        let now = self.at(simd, group, input, end as f64);
-        let x = inlined!(|k: usize| state_of(input, path, end, k, d).load(simd));
-        let v = inlined!(|k: usize| state_of(input, path, end, d + k, d).load(simd));
-        let forces = if self.structure.contents.is_empty() {
-            self.on_block(simd, now, (x, v), input)
-        } else {
-            self.accelerate(simd, n, group, now, (x, v), input, bodies)
-        };
-        let force = self.friction(simd, group, now, (x(0), v(0)), forces, input);
-        ends[end][FRICTION].store(force);
-    }
-
-    /// The outputs at the start (0) or the end (1) of a step, from the equations.
-    pub(super) fn end(&self, (group, end): (&Group, usize), outputs: &Outputs, work: &mut Work) {
-        vectorize!(self.instructions, simd => self.end_of(simd, (group, end), outputs, work));
-    }
-
-    #[inline(always)]
-    fn end_of<S: Simd>(
-        &self,
-        simd: S,
-        (group, end): (&Group, usize),
-        outputs: &Outputs,
-        work: &mut Work,
-    ) {
-        let (d, n) = (self.structure.degrees(), self.structure.masses_kg.len());
-        let Work { input, path, bodies, ends, .. } = work;
-        let now = self.at(simd, group, input, end as f64);
-        let x = inlined!(|k: usize| state_of(input, path, end, k, d).load(simd));
-        let v = inlined!(|k: usize| state_of(input, path, end, d + k, d).load(simd));
-        self.outputs(
-            simd,
-            n,
-            (group, outputs, now),
-            (x, v),
-            input,
-            bodies,
-            inlined!(|g: usize, value: f64x8<S>| ends[end][g].store(value)),
-        );
-    }
-
-    /// Hands on the outputs of a state under loads, its rates from the equations: what cancels in them is
-    /// nothing. Against a rigid stop friction takes what it can of the demand, the stop the rest.
-    #[inline(always)]
-    #[allow(clippy::too_many_arguments)] // an instant
-    pub(super) fn outputs<S: Simd>(
-        &self,
-        simd: S,
-        n: usize,
-        (group, outputs, now): (&Group, &Outputs, Now<S>),
-        (x, v): (impl Fn(usize) -> f64x8<S> + Copy, impl Fn(usize) -> f64x8<S> + Copy),
-        input: &[Eight],
-        bodies: &mut [Eight],
-        out: impl FnMut(usize, f64x8<S>),
-    ) {
-        let structure = self.structure;
-        let forces = self.accelerate(simd, n, group, now, (x, v), input, bodies);
-        let asked = self.friction(simd, group, now, (x(0), v(0)), forces, input);
-        let body = inlined!(|k: usize| bodies[k].load(simd));
-        let [stiffness, damper] = both!(|i| group.stop[i].load(simd));
-        let shift = group.stop[2].load(simd);
-        let mut stop = stiffness * x(0) + damper * v(0) - shift;
-        let restoring = if self.law.series.is_some() { all(simd, 0.0) } else { now.rise };
-        let spring = (all(simd, structure.spring) + restoring) * x(0);
-        let slider = asked - (spring + all(simd, structure.damper) * v(0)) - stop;
-        let mut friction = asked;
-        if self.law.restitution().is_some() {
-            let [low, high] = both!(|i| {
-                let [from, to] = both!(|end| group.normal[end].load(simd));
-                group.taken[i].load(simd) * (from + (to - from) * all(simd, now.part))
-            });
-            friction = smaller(larger(asked, low), high);
-            stop += friction - asked;
-        }
         outputs.each(
-            [v(0), slider, friction, forces[0], stop],
-            (self.slope, body(0)),
-            inlined!(|i: usize| {
-                let (x, a) = (inlined!(|j: usize| x(1 + j)), inlined!(|j: usize| body(1 + j)));
-                outputs.point(i, body(0), x, a)
-            }),
-            inlined!(|e: usize| [v(1 + n + e), body(1 + n + e)]),
-            out,
+            [&v[0], &slider, &friction, &acting.shear, &stop],
+            (self.slope, &bodies[0]),
+            |point| outputs.point(point, &bodies[0], |j| x[1 + j], |j| bodies[1 + j]),
+            |e| [v[1 + n + e], bodies[1 + n + e]],
+            |g, value| out[g] = value,
         );
     }
-}
-
-/// An entry of the state at the start of a path (0) or at its end (1).
-#[inline(always)]
-pub(super) fn state_of(
-    input: &[Eight],
-    path: &[Eight],
-    end: usize,
-    entry: usize,
-    degrees: usize,
-) -> Eight {
-    if end == 0 { input[entry] } else { path[NODES * degrees + entry] }
 }

@@ -11,6 +11,7 @@
 //! A structure by its modes has one part a mode, an oscillator along a direction of its own that rides on the block. What
 //! the modes lack of the mass may be other along x than along y, and join both: `carried` in [`body`](super::body).
 
+use super::super::collocation::{Column, add};
 use super::super::ground::Load;
 use super::super::law::Law;
 use super::super::structure::{Phase, StoreyDamping, Structure};
@@ -41,9 +42,6 @@ pub(super) fn unit(a: Pair) -> Option<Pair> {
     let size = norm(a);
     (size > 0.0).then(|| [a[0] / size, a[1] / size])
 }
-
-/// Values at some instants.
-pub(super) type Column<const N: usize> = [f64; N];
 
 /// The vector at one of some instants.
 pub(super) fn pair<const N: usize>(columns: &[Column<N>; 2], at: usize) -> Pair {
@@ -410,14 +408,6 @@ impl<'a> PlaneFrame<'a> {
     pub(super) fn least_kg(&self) -> f64 {
         let block_kg = self.block_kg / self.body.most_compliant();
         self.masses_kg.iter().fold(block_kg, |least, mass| mass.min(least))
-    }
-}
-
-/// Adds a multiple of a column.
-#[inline(always)]
-pub(super) fn add<const N: usize>(to: &mut Column<N>, factor: f64, column: &Column<N>) {
-    for (to, from) in to.iter_mut().zip(column) {
-        *to += factor * from;
     }
 }
 

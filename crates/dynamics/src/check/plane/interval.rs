@@ -89,7 +89,7 @@ impl<'a> PlaneJudge<'a> {
             }
             at_s = to_s;
         }
-        self.arrive(&path, drift);
+        self.ends(&path, drift);
         Ok(())
     }
 
@@ -101,28 +101,19 @@ impl<'a> PlaneJudge<'a> {
     }
 
     /// Compares the end of the path with what is stored there.
-    fn arrive(&mut self, path: &IntervalPath, drift_n: f64) {
-        let k = path.knot;
+    fn ends(&mut self, path: &IntervalPath, drift_n: f64) {
+        let (k, instant_s) = (path.knot, self.instant_s);
         let length_s = self.h.time_s[k + 1] - self.h.time_s[k];
-        let drift = drift_n / self.frame().least_kg() * length_s;
-        let drift_m = 0.5 * length_s * drift;
-        let stored = self.state(k + 1);
-        let instant_s = self.instant_s;
-        let f = &mut self.figures;
+        let drift = self.take_drift(drift_n / self.frame().least_kg(), length_s);
         for i in 0..path.fastest.len() {
-            let off = (stored.x[i] - path.state.x[i]).abs() - instant_s * path.fastest[i] - drift_m;
-            f.displacement[0] = larger(f.displacement[0], excess(off));
-            let off = (stored.v[i] - path.state.v[i]).abs() - instant_s * path.rates[i] - drift;
-            f.velocity[0] = larger(f.velocity[0], excess(off));
-            f.displacement[1] = larger(f.displacement[1], path.state.x[i]);
-            f.velocity[1] = larger(f.velocity[1], path.fastest[i]);
+            let end = [path.state.x[i], path.state.v[i]];
+            self.arrive((k + 1, i), end, [path.fastest[i], path.rates[i]], drift);
         }
-        self.drift = [self.drift[0].max(drift_m), self.drift[1].max(drift)];
         self.axes.arrived = norm(path.state.speed());
         if self.ground.has_vertical() {
             let speed: f64 = path.fastest.iter().sum();
             let moved = path.fastest[0].max(path.fastest[1]) * length_s;
-            self.books.blur[k] += drift_n * moved + self.frame().total_kg * speed * drift;
+            self.books.blur[k] += drift_n * moved + self.frame().total_kg * speed * drift[1];
         }
         let Some(rested_s) = path.rested_s else { return };
         let loads = self.instant(self.h.time_s[k + 1])[0];

@@ -356,7 +356,7 @@ impl Directions for PlaneJudge<'_> {
         false
     }
 
-    fn slipped(&mut self, _: usize, _: Direction, _: usize) -> Option<ClosestCall> {
+    fn slipped(&mut self, _: usize, _: Direction) -> Option<ClosestCall> {
         let (minimum, peak) = (self.dips[0].so_far(), self.dips[0].peak());
         if minimum.is_finite() {
             let least = &mut self.axes.least_speed;
@@ -375,7 +375,7 @@ impl Directions for PlaneJudge<'_> {
         self.turn(k);
     }
 
-    fn begins(&mut self, _: usize, _: usize) {
+    fn begins(&mut self, _: usize) {
         let plane = &mut self.axes;
         (plane.minima, plane.near_rest) = (Minima::default(), None);
         (plane.heading, plane.arrived) = (None, 0.0);

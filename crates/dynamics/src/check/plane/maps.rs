@@ -16,8 +16,8 @@
 //! which a step of at most a radian ends at rounding after [`TERMS`] terms. The same sums of unit vectors are the maps
 //! of a step that comes again and again.
 
-use super::super::collocation::{NODES, POINTS, Rule};
-use super::frame::{Column, Loads, Pair, PlaneFrame, add};
+use super::super::collocation::{Column, NODES, POINTS, Rule, add, combined};
+use super::frame::{Loads, Pair, PlaneFrame};
 use std::sync::LazyLock;
 
 /// Values at the points of a step.
@@ -418,16 +418,6 @@ fn add_at_nodes(to: &mut [[f64; NODES]; NODES], factor: f64, integrals: &[Points
             to.iter_mut().zip(&from[1..]).for_each(|(to, from)| *to += factor * from);
         }
     }
-}
-
-/// `Σ a_i b_i`, of columns.
-#[inline(always)]
-fn combined(columns: &[Points], factors: &[f64]) -> Points {
-    let mut sum = [0.0; POINTS];
-    for (column, factor) in columns.iter().zip(factors) {
-        add(&mut sum, *factor, column);
-    }
-    sum
 }
 
 #[cfg(test)]

@@ -2,11 +2,11 @@
 //!
 //! In a step whose last Legendre coefficients are rounding all outputs are polynomials as good as the motion.
 
-use super::super::collocation::{POINTS, Rule};
+use super::super::collocation::{Column, POINTS, Rule};
 use super::super::outputs::{Outputs, raise, raise_size};
 use super::super::structure::larger;
 use super::body::PointOfModes;
-use super::frame::{Column, Forces, Pair, PlaneFrame, Under, cross, dot, norm, pair, times, unit};
+use super::frame::{Forces, Pair, PlaneFrame, Under, cross, dot, norm, pair, times, unit};
 use super::step::Step;
 use crate::numerics::InstructionSet;
 use crate::numerics::instructions::vectorize;
@@ -127,27 +127,32 @@ impl Tracked<'_> {
         });
         let [block, slider, friction] = acting.on_block(frame, directions.as_ref());
         let of_part = |part: usize, i: usize| -acting.floors[part][i] / frame.masses_kg[part];
-        for i in 0..N {
-            let by_modes = frame.points.as_ref().map(|points| {
-                let of = |point: &PointOfModes| {
-                    let total = point.vector(|j| of_part(j, i), pair(&block, i));
-                    [point.vector(|j| x[2 + j][i], [0.0; 2]), total]
-                };
-                points.iter().map(of).collect::<Vec<[Pair; 2]>>()
-            });
-            for axis in 0..2 {
-                let base = acting.forces.base[axis][i];
-                self.outputs.each(
-                    [v[axis][i], slider[axis][i], friction[axis][i], base, 0.0],
-                    (0.0, block[axis][i]),
-                    |point| match &by_modes {
-                        Some(points) => points[point].map(|vector| vector[axis]),
-                        None => [x[2 + 2 * point + axis][i], of_part(2 * point + axis, i)],
-                    },
-                    |_| [0.0; 2],
-                    |g, value| out[g][axis][i] = value,
-                );
+        // Displacement and acceleration of a point, along x and along y.
+        let of_modes = |point: &PointOfModes| {
+            let mut of = [[[0.0; N]; 2]; 2];
+            for i in 0..N {
+                let q = point.vector(|j| x[2 + j][i], [0.0; 2]);
+                let total = point.vector(|j| of_part(j, i), pair(&block, i));
+                (0..2).for_each(|axis| (of[axis][0][i], of[axis][1][i]) = (q[axis], total[axis]));
             }
+            of
+        };
+        let by_modes: Option<Vec<_>> =
+            frame.points.as_ref().map(|points| points.iter().map(of_modes).collect());
+        for axis in 0..2 {
+            self.outputs.each(
+                [&v[axis], &slider[axis], &friction[axis], &acting.forces.base[axis], &[0.0; N]],
+                (0.0, &block[axis]),
+                |point| match &by_modes {
+                    Some(points) => points[point][axis],
+                    None => {
+                        let part = 2 * point + axis;
+                        [x[2 + part], core::array::from_fn(|i| of_part(part, i))]
+                    }
+                },
+                |_| [[0.0; N]; 2],
+                |g, value| out[g][axis] = value,
+            );
         }
         out[self.outputs.len()] = [x[0], x[1]];
     }

@@ -15,10 +15,8 @@
 //!
 //! [`maps`]: super::maps
 
-use super::super::collocation::{NODES, POINTS, Rule, legendre};
-use super::frame::{
-    Column, Loads, Pair, PlaneFrame, Under, add, between, cross, dot, norm, pair, times, unit,
-};
+use super::super::collocation::{Column, NODES, POINTS, Rule, add, legendre};
+use super::frame::{Loads, Pair, PlaneFrame, Under, between, cross, dot, norm, pair, times, unit};
 use super::maps::{Blocks, Influence, Linear};
 use super::peaks::Acting;
 use crate::numerics::InstructionSet;
