@@ -1,5 +1,6 @@
 //! A prediction beside a measurement.
 
+use serde::Serialize;
 use slipstick::input::Channel;
 use slipstick::laboratory::compare::{Compared, Comparison, Metrics, Within};
 use slipstick::model::Model;
@@ -12,10 +13,11 @@ use crate::assessment::sheet::{Sheet, Table};
 use crate::describe::model_rows;
 use crate::display::{DisplayUnits, Quantity, Unit};
 use crate::figures::Drawn;
-use crate::json::Json;
+use crate::json::{Members, each, pretty};
 use crate::number::{significant, typeset};
 use crate::plot::{Axis, Figure, Layout, Panel, Style};
 use crate::summary::method_name;
+use crate::view;
 
 /// The table's own acceleration: there to be seen, not to hide the others.
 const TABLE: Style = Style { colour: "#5f7358", width: 0.8, dashes: "" };
@@ -164,72 +166,64 @@ impl CompareReport<'_> {
                 ("Measured quantities".to_owned(), pairs(&mut origins)),
             ],
             complete: self.missed().is_empty(),
-            json: self.json(),
+            json: pretty(&self.json()),
             ..Sheet::default()
         }
     }
 
-    fn json(&self) -> Vec<(&'static str, Json)> {
+    fn json(&self) -> impl Serialize {
         let c = self.comparison;
-        let quantities = c.compared.iter().map(|compared| {
-            let (pair, m) = (&compared.pair, &compared.metrics);
-            let scores = m.anderson.map_or(Json::Null, |a| {
-                let scores = a.scores().map(|(name, score)| (name, Json::from(score)));
-                let mut scores = scores.to_vec();
-                scores.push(("mean", a.mean().into()));
-                Json::Object(scores)
-            });
-            Json::Object(vec![
-                ("quantity", pair.channel.name().as_str().into()),
-                ("unit", pair.channel.dimension().si_unit().into()),
-                ("origin", pair.origin.as_str().into()),
-                ("samples", (pair.times_s.len() as u64).into()),
-                ("samples_not_interpolated", (pair.at_samples as u64).into()),
-                ("from_s", pair.times_s.first().copied().into()),
-                ("to_s", pair.times_s.last().copied().into()),
-                ("measured_peak", m.measured_peak.into()),
-                ("measured_peak_time_s", m.measured_peak_time_s.into()),
-                ("predicted_peak", m.predicted_peak.into()),
-                ("predicted_peak_time_s", m.predicted_peak_time_s.into()),
-                ("peak_ratio", m.peak_ratio.into()),
-                ("measured_residual", m.measured_residual.into()),
-                ("predicted_residual", m.predicted_residual.into()),
-                ("residual_error", m.residual_error.into()),
-                ("measured_rms", m.measured_rms.into()),
-                ("rms_error", m.rms_error.into()),
-                ("normalised_rms_error", m.normalised_rms_error.into()),
-                ("correlation", m.correlation.into()),
-                ("russell_magnitude", m.russell.map(|r| r.magnitude).into()),
-                ("russell_phase", m.russell.map(|r| r.phase).into()),
-                ("russell_comprehensive", m.russell.map(|r| r.comprehensive).into()),
-                ("anderson_whole_band", scores),
-                ("arrival_lag_s", m.arrival_lag_s.into()),
-                ("correlation_at_lag", m.lagged_correlation.into()),
-            ])
-        });
-        let within = self.within.iter().map(|bound| {
-            let value = self.value(bound);
-            Json::Object(vec![
-                ("bound", bound.name().as_str().into()),
-                ("least", bound.least.into()),
-                ("most", bound.most.into()),
-                ("value", value.into()),
-                ("holds", bound.holds(value).into()),
-            ])
-        });
-        let figures = c.motion.figures();
-        vec![
-            ("model", self.name.into()),
-            ("method", method_name(self.method).into()),
-            ("measured", self.measured.into()),
-            ("alignment", c.alignment.as_str().into()),
-            ("starts_at_s", c.start_s.into()),
-            ("samples", (c.motion.len() as u64).into()),
-            ("dt_s", c.motion.dt_s().into()),
-            ("table_peak_acceleration_m_per_s2", figures.pga_m_per_s2.into()),
-            ("quantities", Json::List(quantities.collect())),
-            ("within", Json::List(within.collect())),
-        ]
+        view! {
+            model: self.name,
+            method: method_name(self.method),
+            measured: self.measured,
+            alignment: &c.alignment,
+            starts_at_s: c.start_s,
+            samples: c.motion.len(),
+            dt_s: c.motion.dt_s(),
+            table_peak_acceleration_m_per_s2: c.motion.figures().pga_m_per_s2,
+            quantities: each(&c.compared, |Compared { pair, metrics: m, .. }| {
+                view! {
+                    quantity: pair.channel.name(),
+                    unit: pair.channel.dimension().si_unit(),
+                    origin: &pair.origin,
+                    samples: pair.times_s.len(),
+                    samples_not_interpolated: pair.at_samples,
+                    from_s: pair.times_s.first(),
+                    to_s: pair.times_s.last(),
+                    measured_peak: m.measured_peak,
+                    measured_peak_time_s: m.measured_peak_time_s,
+                    predicted_peak: m.predicted_peak,
+                    predicted_peak_time_s: m.predicted_peak_time_s,
+                    peak_ratio: m.peak_ratio,
+                    measured_residual: m.measured_residual,
+                    predicted_residual: m.predicted_residual,
+                    residual_error: m.residual_error,
+                    measured_rms: m.measured_rms,
+                    rms_error: m.rms_error,
+                    normalised_rms_error: m.normalised_rms_error,
+                    correlation: m.correlation,
+                    russell_magnitude: m.russell.map(|r| r.magnitude),
+                    russell_phase: m.russell.map(|r| r.phase),
+                    russell_comprehensive: m.russell.map(|r| r.comprehensive),
+                    anderson_whole_band: m.anderson.map(|a| {
+                        Members(a.scores().into_iter().chain([("mean", a.mean())]).collect())
+                    }),
+                    arrival_lag_s: m.arrival_lag_s,
+                    correlation_at_lag: m.lagged_correlation,
+                }
+            }),
+            within: each(self.within, |bound| {
+                let value = self.value(bound);
+                view! {
+                    bound: bound.name(),
+                    least: bound.least,
+                    most: bound.most,
+                    value,
+                    holds: bound.holds(value),
+                }
+            }),
+        }
     }
 
     /// How near the prediction is, quantity by quantity, and whether the bounds are kept.

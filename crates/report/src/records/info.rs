@@ -1,14 +1,16 @@
 //! What `slipstick record info` says of every channel.
 
+use serde::Serialize;
 use slipstick::error::visible;
 use slipstick::motion::intensity::IntensityMeasures;
 use slipstick::notice::{Notice, NoticeKind};
 use slipstick::record::{Channel, Quantity, Record, Sampling};
 
 use crate::display::{DisplayUnits, Quantity as Shown};
-use crate::json::Json;
+use crate::json::{Members, each, pretty};
 use crate::number::significant;
 use crate::summary::keys::listed;
+use crate::view;
 
 /// One channel of one file.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,40 +98,38 @@ impl ChannelInfo {
         }
     }
 
-    fn json(&self) -> Json {
-        let text = |value: &Option<String>| value.as_deref().map_or(Json::Null, Json::from);
-        let mut keys = vec![
-            ("file", self.file.as_str().into()),
-            ("format", self.format.into()),
-            ("layout", self.layout.as_str().into()),
-            ("channel", self.channel.as_str().into()),
-            ("component", text(&self.component)),
-            ("azimuth_deg", self.azimuth_deg.into()),
-            ("units", self.units.as_str().into()),
-            ("quantity", self.quantity.name().into()),
-            ("npts", (self.npts as u64).into()),
-            ("dt_s", self.dt_s.into()),
-            ("duration_s", self.duration_s.into()),
-            ("high_pass_hz", self.high_pass_hz.into()),
-            ("low_pass_hz", self.low_pass_hz.into()),
-        ];
+    fn json(&self) -> impl Serialize {
         // The keys stand there for every channel; without an acceleration they are null.
         let columns = self.measures.map_or(IntensityMeasures::default(), |(set, _)| set).columns();
-        let value = |value: f64| self.measures.map_or(Json::Null, |_| value.into());
-        keys.extend(columns.into_iter().map(|(_, column, si)| (column, value(si))));
-        keys.push(("end_velocity_m_per_s", self.measures.map(|(_, end)| end).into()));
-        keys.push(("event", text(&self.event)));
-        keys.push(("station", text(&self.station)));
-        keys.push(("warnings", listed(&self.warnings, false)));
-        keys.push(("notes", listed(&self.warnings, true)));
-        Json::Object(keys)
+        let value = |si: f64| self.measures.map(|_| si);
+        view! {
+            file: &self.file,
+            format: self.format,
+            layout: &self.layout,
+            channel: &self.channel,
+            component: &self.component,
+            azimuth_deg: self.azimuth_deg,
+            units: &self.units,
+            quantity: self.quantity.name(),
+            npts: self.npts,
+            dt_s: self.dt_s,
+            duration_s: self.duration_s,
+            high_pass_hz: self.high_pass_hz,
+            low_pass_hz: self.low_pass_hz,
+            #[serde(flatten)] measures: Members(each(columns, |(_, name, si)| (name, value(si)))),
+            end_velocity_m_per_s: self.measures.map(|(_, end)| end),
+            event: &self.event,
+            station: &self.station,
+            warnings: listed(&self.warnings, false),
+            notes: listed(&self.warnings, true),
+        }
     }
 }
 
 /// One JSON array with an object a channel; numbers in SI.
 #[must_use]
 pub fn info_json(channels: &[ChannelInfo]) -> String {
-    Json::List(channels.iter().map(ChannelInfo::json).collect()).to_pretty()
+    pretty(&each(channels, ChannelInfo::json))
 }
 
 /// A table of channels below the name of their file, with what there is to know of them.

@@ -3,7 +3,8 @@
 use slipstick::motion::{FourierSpectrum, Ordinates, Spectrum};
 use slipstick::table::{Table, to_cell};
 
-use crate::json::Json;
+use crate::json::{Members, each, pretty};
+use crate::view;
 
 /// The response spectrum of one channel.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,25 +63,18 @@ pub fn spectra_csv(spectra: &[ChannelSpectrum]) -> String {
 /// One JSON array with an object a channel: its periods, and the ordinates of each damping ratio.
 #[must_use]
 pub fn spectra_json(spectra: &[ChannelSpectrum]) -> String {
-    let list = |values: &[f64]| Json::List(values.iter().map(|v| Json::from(*v)).collect());
-    let one = |one: &ChannelSpectrum| {
-        let of_damping = |(index, damping): (usize, &f64)| {
-            let ordinates = one.spectrum.of_damping(index);
-            let mut keys = vec![("damping_ratio", Json::from(*damping))];
-            keys.extend(COLUMNS.map(|(name, value)| {
-                (name, list(&ordinates.iter().map(value).collect::<Vec<f64>>()))
-            }));
-            Json::Object(keys)
-        };
-        let damping = one.spectrum.damping_ratios.iter().enumerate();
-        Json::Object(vec![
-            ("file", one.file.as_str().into()),
-            ("channel", one.channel.as_str().into()),
-            ("periods_s", list(&one.spectrum.periods_s)),
-            ("spectra", Json::List(damping.map(of_damping).collect())),
-        ])
-    };
-    Json::List(spectra.iter().map(one).collect()).to_pretty()
+    pretty(&each(spectra, |ChannelSpectrum { file, channel, spectrum }| {
+        view! {
+            file,
+            channel,
+            periods_s: &spectrum.periods_s,
+            spectra: each(spectrum.damping_ratios.iter().enumerate(), |(index, damping_ratio)| {
+                let ordinates = spectrum.of_damping(index);
+                let columns = each(COLUMNS, |(name, value)| (name, each(ordinates, value)));
+                view! { damping_ratio, #[serde(flatten)] columns: Members(columns) }
+            }),
+        }
+    }))
 }
 
 /// Damping ratio, period and ordinates as columns, one row a period.

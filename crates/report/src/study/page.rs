@@ -1,5 +1,6 @@
 //! A study as a page: the answer, how demands grow with the level, the tables.
 
+use serde::Serialize;
 use slipstick::notice::{Notice, NoticeKind};
 use slipstick::response::DemandColumn;
 use slipstick::study::{Certified, LevelSummary, Study, StudySummary};
@@ -10,10 +11,11 @@ use crate::assessment::pairs;
 use crate::assessment::sheet::{Sheet, cell};
 use crate::display::{DisplayUnits, Unit};
 use crate::figures::Drawn;
-use crate::json::Json;
+use crate::json::pretty;
 use crate::markup::shortened;
 use crate::number::{compact, count};
 use crate::plot::{Axis, Panel, Series, Style};
+use crate::view;
 
 /// What the page of a study is told from.
 #[derive(Clone, Copy, Debug)]
@@ -60,7 +62,7 @@ impl StudyReport<'_> {
             figures: self.figures(),
             method: self.method(),
             complete: true,
-            json: self.json(),
+            json: pretty(&self.json()),
             ..Sheet::default()
         }
         .certified(Some(self.certified.clone()))
@@ -367,14 +369,14 @@ impl StudyReport<'_> {
         method
     }
 
-    fn json(&self) -> Vec<(&'static str, Json)> {
+    fn json(&self) -> impl Serialize {
         let cases = self.study.cases();
-        vec![
-            ("name", self.summary.name.as_str().into()),
-            ("runs", self.study.runs().into()),
-            ("records", cases.records.into()),
-            ("levels", cases.levels.into()),
-            ("samples", cases.samples.into()),
-        ]
+        view! {
+            name: &self.summary.name,
+            runs: self.study.runs(),
+            records: cases.records,
+            levels: cases.levels,
+            samples: cases.samples,
+        }
     }
 }
