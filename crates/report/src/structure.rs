@@ -6,6 +6,7 @@ use slipstick::input::{ModalTable, Share};
 use crate::assessment::lines::{line, panel};
 use crate::display::{DisplayUnits, Quantity};
 use crate::json::{each, pretty};
+use crate::laboratory::text::padded;
 use crate::number::significant;
 use crate::plot::{Axis, Figure, Layout, Panel, Series, Style, Svg, column};
 use crate::view;
@@ -136,7 +137,7 @@ impl ModalInfo<'_> {
             row.extend(axes.iter().map(|axis| percent(sums[*axis])));
             rows.push(row);
         }
-        out.push_str(&aligned(&rows));
+        out.push_str(&padded(&rows, |_| false));
         for note in self.notes() {
             out.push_str(&format!("Note     {}\n", visible(&note)));
         }
@@ -202,19 +203,4 @@ impl ModalInfo<'_> {
         let points = Axis::linear("Point", 0.0, table.points.len() as f64);
         panel(Axis::linear(label, -1.1, 1.1), points, 190.0, lines)
     }
-}
-
-/// Columns to the right, two spaces between them.
-fn aligned(rows: &[Vec<String>]) -> String {
-    let width = |column: usize| {
-        rows.iter().filter_map(|row| row.get(column)).map(|c| c.chars().count()).max().unwrap_or(0)
-    };
-    let line = |row: &Vec<String>| {
-        let cells = row
-            .iter()
-            .enumerate()
-            .map(|(i, cell)| format!("{}{cell}", " ".repeat(width(i) - cell.chars().count())));
-        format!("{}\n", cells.collect::<Vec<_>>().join("  "))
-    };
-    rows.iter().map(line).collect()
 }

@@ -2,12 +2,13 @@
 
 use serde::Serialize;
 use slipstick::error::visible;
-use slipstick::motion::intensity::IntensityMeasures;
+use slipstick::motion::intensity::{IntensityMeasures, Measure};
 use slipstick::notice::{Notice, NoticeKind};
 use slipstick::record::{Channel, Quantity, Record, Sampling};
 
 use crate::display::{DisplayUnits, Quantity as Shown};
 use crate::json::{Members, each, pretty};
+use crate::laboratory::text::padded;
 use crate::number::significant;
 use crate::summary::keys::listed;
 use crate::view;
@@ -149,6 +150,28 @@ pub fn info_table(channels: &[ChannelInfo], display: DisplayUnits) -> String {
     out
 }
 
+/// Measures of the table, in the order of the set.
+const TABLED: [Measure; 6] = [
+    Measure::Pga,
+    Measure::Pgv,
+    Measure::Pgd,
+    Measure::Arias,
+    Measure::D5To95,
+    Measure::MeanPeriod,
+];
+
+/// The value of a measure, and its unit.
+pub(super) fn shown(measure: &Measure, si: f64, display: DisplayUnits) -> (String, &'static str) {
+    let quantity = match measure.unit() {
+        "m/s2" => Shown::Acceleration,
+        "m/s" => Shown::Velocity,
+        "m" => Shown::Length,
+        _ => Shown::Time,
+    };
+    let unit = display.unit(quantity, si.abs());
+    (significant(unit.of(si), 4), unit.symbol)
+}
+
 /// The channels of one file.
 fn file_table(out: &mut String, channels: &[ChannelInfo], display: DisplayUnits) {
     let first = &channels[0];
@@ -159,19 +182,10 @@ fn file_table(out: &mut String, channels: &[ChannelInfo], display: DisplayUnits)
             out.push_str(&format!("{name:<9}{}\n", visible(value)));
         }
     }
-    let mut rows = vec![
-        [
-            "Channel", "Units", "Values", "dt", "Duration", "PGA", "PGV", "PGD", "Arias", "D5-95",
-            "Tm",
-        ]
-        .map(str::to_owned)
-        .to_vec(),
-    ];
+    let heads = ["Channel", "Units", "Values", "dt", "Duration"].map(str::to_owned);
+    let heads = heads.into_iter().chain(TABLED.map(|measure| measure.to_string()));
+    let mut rows = vec![heads.collect()];
     for channel in channels {
-        let shown = |quantity, si: f64| {
-            let unit = display.unit(quantity, si.abs());
-            format!("{} {}", significant(unit.of(si), 4), unit.symbol)
-        };
         let dt = channel.dt_s.map_or("uneven".to_owned(), |dt_s| format!("{dt_s} s"));
         let mut row = vec![
             visible(&channel.channel),
@@ -181,33 +195,19 @@ fn file_table(out: &mut String, channels: &[ChannelInfo], display: DisplayUnits)
             format!("{} s", significant(channel.duration_s, 5)),
         ];
         match &channel.measures {
-            Some((set, _)) => row.extend([
-                shown(Shown::Acceleration, set.pga_m_per_s2),
-                shown(Shown::Velocity, set.pgv_m_per_s),
-                shown(Shown::Length, set.pgd_m),
-                shown(Shown::Velocity, set.arias_m_per_s),
-                format!("{} s", significant(set.d5_95_s, 4)),
-                format!("{} s", significant(set.tm_s, 4)),
-            ]),
+            Some((set, _)) => {
+                let columns = set.columns().into_iter();
+                let tabled = columns.filter(|(measure, ..)| TABLED.contains(measure));
+                row.extend(tabled.map(|(measure, _, si)| {
+                    let (value, unit) = shown(&measure, si, display);
+                    format!("{value} {unit}")
+                }));
+            }
             None => row.push(format!("({})", channel.quantity.name())),
         }
         rows.push(row);
     }
-    let width = |column: usize| {
-        rows.iter().filter_map(|row| row.get(column)).map(|c| c.chars().count()).max().unwrap_or(0)
-    };
-    for row in &rows {
-        let cells: Vec<String> = row
-            .iter()
-            .enumerate()
-            .map(|(i, cell)| {
-                let space = " ".repeat(width(i) - cell.chars().count());
-                if i < 2 { format!("{cell}{space}") } else { format!("{space}{cell}") }
-            })
-            .collect();
-        out.push_str(cells.join("  ").trim_end());
-        out.push('\n');
-    }
+    out.push_str(&padded(&rows, |column| column < 2));
     let mut told: Vec<&Notice> = Vec::new();
     for channel in channels {
         for warning in &channel.warnings {
