@@ -22,7 +22,7 @@ pub use serde::{self, Serialize};
 ///
 /// let unit = "m";
 /// let above = None.map(|above: f64| view! { above });
-/// let text = pretty(&view! { name: "gap", unit, #[serde(flatten)] above: above });
+/// let text = pretty(&view! { name: "gap", unit, #[serde(flatten)] above });
 /// assert_eq!(text, "{\n  \"name\": \"gap\",\n  \"unit\": \"m\"\n}\n");
 /// ```
 #[macro_export]

@@ -244,7 +244,7 @@ fn value(input: Input<'_>, display: DisplayUnits) -> impl Serialize {
     view! {
         path: input.path.to_owned(),
         text: input.text.to_owned(),
-        #[serde(flatten)] in_numbers: in_numbers,
+        #[serde(flatten)] in_numbers,
     }
 }
 

@@ -57,6 +57,6 @@ impl Failure {
 impl From<Failure> for JsValue {
     fn from(failure: Failure) -> Self {
         let place = failure.place.map(|(source, [start, end])| view! { source, start, end });
-        Self::from_str(&pretty(&view! { message: failure.message, #[serde(flatten)] place: place }))
+        Self::from_str(&pretty(&view! { message: failure.message, #[serde(flatten)] place }))
     }
 }

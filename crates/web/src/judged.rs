@@ -268,5 +268,5 @@ fn beside_stepwise(
             }),
         }
     });
-    view! { #[serde(flatten)] error: error, #[serde(flatten)] found: found }
+    view! { #[serde(flatten)] error, #[serde(flatten)] found }
 }

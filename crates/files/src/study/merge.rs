@@ -86,8 +86,13 @@ fn manifest(study: &OpenStudy, files: &[PartFile]) -> String {
         },
         // A part by its path from the manifest, its runs and the hash of its file.
         parts: each(files, |PartFile { table, notes, sha256, .. }| {
-            let name = table.path.file_name().map_or_else(Default::default, |n| n.to_string_lossy());
-            view! { path: format!("{PARTS}/{name}"), first_run: notes.first, rows: notes.rows, sha256 }
+            let name = table.path.file_name().map(|name| name.to_string_lossy());
+            view! {
+                path: format!("{PARTS}/{}", name.unwrap_or_default()),
+                first_run: notes.first,
+                rows: notes.rows,
+                sha256,
+            }
         }),
     })
 }

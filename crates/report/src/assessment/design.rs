@@ -417,7 +417,9 @@ impl DesignReport<'_> {
             acceleration: self.acceleration,
             acceleration_share: self.target.acceleration_share,
             confidence: self.confidence,
-            variables: each(variables, |v| view! { path: &v.path, unit: &v.unit, values: &v.values }),
+            variables: each(variables, |Axis { path, unit, values, .. }| {
+                view! { path, unit, values }
+            }),
             runs: found.runs,
             failed: failures.len(),
             used_up_travel: travel_used_up(failures),

@@ -273,7 +273,8 @@ impl FragilityReport<'_> {
     fn goodness(&self) -> (Option<GoodnessOfFit>, String) {
         let normality = |values: &[f64], of: &str| {
             let Some(test) = test_normality(values) else {
-                let untested = "Goodness of fit is not tested: it needs eight values or more, none of them censored.";
+                let untested = "Goodness of fit is not tested: it needs eight values or more, none \
+                                of them censored.";
                 return (None, untested.to_owned());
             };
             let note = format!(
@@ -423,9 +424,9 @@ impl FragilityReport<'_> {
             dispersion_interval: fragility.dispersion_interval(self.confidence),
             log_likelihood: fragility.fit().log_likelihood(),
             goodness_of_fit: self.goodness().0,
-            #[serde(flatten)] stripes: stripes,
-            #[serde(flatten)] capacities: capacities,
-            #[serde(flatten)] cloud: cloud,
+            #[serde(flatten)] stripes,
+            #[serde(flatten)] capacities,
+            #[serde(flatten)] cloud,
             curve: self.curve(),
         }
     }

@@ -419,7 +419,7 @@ impl IdaReport<'_> {
                     record,
                     levels: &curve.levels,
                     demands: each(&curve.demands, |demand| demand.value()),
-                    #[serde(flatten)] of_limit: of_limit,
+                    #[serde(flatten)] of_limit,
                 }
             }),
         }

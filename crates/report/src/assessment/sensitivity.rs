@@ -252,7 +252,7 @@ impl SensitivityReport<'_> {
         let run = self.run;
         view! {
             model: self.name,
-            keys: each(&run.keys, |key| view! { path: &key.path, unit: &key.unit, value: key.value }),
+            keys: each(&run.keys, |Key { path, unit, value, .. }| view! { path, unit, value }),
             records: each(&run.records, |of| {
                 view! {
                     name: &of.name,

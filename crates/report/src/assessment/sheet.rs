@@ -135,7 +135,7 @@ impl Sheet {
         let hash = self.model_hash.as_ref().map(|model_hash| view! { model_hash });
         let certified = self.certified.as_ref().map(certified_keys);
         let suite = (!self.suite.is_empty()).then(|| suite(&self.suite));
-        let head = view! { slipstick: VERSION, #[serde(flatten)] hash: hash };
+        let head = view! { slipstick: VERSION, #[serde(flatten)] hash };
         let tail = view! {
             #[serde(flatten)] certified: certified.map(|certified| view! { certified }),
             #[serde(flatten)] suite: suite.map(|suite| view! { suite }),

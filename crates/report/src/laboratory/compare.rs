@@ -198,7 +198,8 @@ impl CompareReport<'_> {
             dt_s: c.motion.dt_s(),
             table_peak_acceleration_m_per_s2: c.motion.figures().pga_m_per_s2,
             quantities: each(&c.compared, |Compared { pair, metrics: m, .. }| {
-                let figures = |of: &[Agreement]| Members(each(of, |(key, .., value)| (*key, value(m))));
+                let figures =
+                    |of: &[Agreement]| Members(each(of, |(key, .., value)| (*key, value(m))));
                 // Anderson's scores stand before the lag.
                 let (before, lag) = AGREEMENT.split_at(AGREEMENT.len() - 2);
                 view! {

@@ -63,14 +63,14 @@ impl Serialize for Summary {
             #[serde(flatten)] demands: self::demands(demands, names, |demand| {
                 Some(demand.in_directions) != absent
             }),
-            #[serde(flatten)] by_axis: by_axis,
+            #[serde(flatten)] by_axis,
             contact_loss_s: &self.contact_loss_s,
             warnings: listed(&self.warnings, false),
             notes: listed(&self.warnings, true),
             checks: checks(&self.checks),
-            #[serde(flatten)] iterations: iterations,
-            #[serde(flatten)] floor_spectrum: floor_spectrum,
-            #[serde(flatten)] bounds: bounds,
+            #[serde(flatten)] iterations,
+            #[serde(flatten)] floor_spectrum,
+            #[serde(flatten)] bounds,
         }
         .serialize(to)
     }
