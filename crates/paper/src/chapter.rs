@@ -11,9 +11,10 @@ mod tables;
 use crate::fill::fill;
 use crate::{Claim, Paper, PaperError, Verdict};
 
-use slipstick_report::json::Json;
+use slipstick_report::json::{each, pretty};
 use slipstick_report::number::significant;
 use slipstick_report::plot::{Figure, Svg};
+use slipstick_report::view;
 
 const TEMPLATE: &str = include_str!("chapter/paper.md");
 
@@ -67,7 +68,19 @@ fn listed<'a>(paper: &'a Paper, list: &str) -> Result<Vec<&'a Claim>, PaperError
 /// why}`, in the order of the paper; values are null where there is none.
 #[must_use]
 pub fn claims_json(paper: &Paper) -> String {
-    Json::List(paper.claims.iter().map(object).collect()).to_pretty()
+    pretty(&each(&paper.claims, |claim| {
+        view! {
+            id: &claim.id,
+            section: &claim.section,
+            claim: &claim.claim,
+            paper_value: claim.paper_value,
+            computed_value: claim.computed_value,
+            unit: &claim.unit,
+            rule: &claim.rule,
+            verdict: claim.verdict.words(),
+            why: &claim.why,
+        }
+    }))
 }
 
 /// The verdicts as plain text: their counts, then one line a claim.
@@ -91,18 +104,4 @@ pub fn listing(paper: &Paper) -> String {
     }
     let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
     format!("{}\n", lines.join("\n"))
-}
-
-fn object(claim: &Claim) -> Json {
-    Json::Object(vec![
-        ("id", claim.id.as_str().into()),
-        ("section", claim.section.as_str().into()),
-        ("claim", claim.claim.as_str().into()),
-        ("paper_value", claim.paper_value.into()),
-        ("computed_value", claim.computed_value.into()),
-        ("unit", claim.unit.as_str().into()),
-        ("rule", claim.rule.as_str().into()),
-        ("verdict", claim.verdict.words().into()),
-        ("why", claim.why.as_str().into()),
-    ])
 }

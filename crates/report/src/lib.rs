@@ -36,6 +36,9 @@
 //!                                                   └─ Report ──> Report::to_html(), figures::all(…)
 //! ```
 
+// For `view!`, whose derived code has one path in every crate.
+extern crate self as slipstick_report;
+
 pub mod assessment;
 pub mod describe;
 pub mod display;

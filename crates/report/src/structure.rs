@@ -5,9 +5,11 @@ use slipstick::input::{ModalTable, Share};
 
 use crate::assessment::lines::{line, panel};
 use crate::display::{DisplayUnits, Quantity};
-use crate::json::Json;
+use crate::json::{each, pretty};
+use crate::laboratory::text::padded;
 use crate::number::significant;
 use crate::plot::{Axis, Figure, Layout, Panel, Series, Style, Svg, column};
+use crate::view;
 
 const AXES: [&str; 2] = ["x", "y"];
 
@@ -59,47 +61,33 @@ impl ModalInfo<'_> {
     #[must_use]
     pub fn json(&self) -> String {
         let Self { table, mass_kg, .. } = *self;
-        let by_axis = |value: &dyn Fn(usize) -> Option<f64>| {
-            Json::Object((0..2).map(|axis| (AXES[axis], value(axis).into())).collect())
-        };
-        let mode = |j: usize| {
-            let mode = &table.modes[j];
-            let participation = |axis: usize| match mode.shares[axis] {
-                Some(Share::Participation(l)) => Some(l),
-                _ => None,
-            };
-            Json::Object(vec![
-                ("period_s", mode.period_s.into()),
-                ("damping_ratio", mode.damping_ratio.into()),
-                ("participation_sqrt_kg", by_axis(&participation)),
-                ("effective_mass_kg", by_axis(&|a| table.effective_mass_kg(j, a, mass_kg))),
-                ("effective_mass_ratio", by_axis(&|a| table.ratio(j, a, mass_kg))),
-            ])
-        };
-        let shape = |shape: &Option<Vec<f64>>| match shape {
-            Some(values) => Json::List(values.iter().map(|value| Json::from(*value)).collect()),
-            None => Json::Null,
-        };
-        let point = |point: &slipstick::input::ModalPoint| {
-            let [x, y] = &point.shapes;
-            Json::Object(vec![
-                ("name", point.name.as_str().into()),
-                ("shape_x", shape(x)),
-                ("shape_y", shape(y)),
-            ])
-        };
-        let listed = |texts: &[String]| Json::List(texts.iter().cloned().map(Json::from).collect());
-        Json::Object(vec![
-            ("files", self.files.into()),
-            ("format", table.format.as_str().into()),
-            ("read", listed(&table.read)),
-            ("mass_kg", by_axis(&|axis| mass_kg.or(table.mass_kg[axis]))),
-            ("effective_mass_ratio_sum", by_axis(&|axis| table.sum(axis, mass_kg))),
-            ("modes", Json::List((0..table.modes.len()).map(mode).collect())),
-            ("points", Json::List(table.points.iter().map(point).collect())),
-            ("notes", listed(&self.notes())),
-        ])
-        .to_pretty()
+        let by_axis = |value: &dyn Fn(usize) -> Option<f64>| view! { x: value(0), y: value(1) };
+        let modes = table.modes.iter().enumerate();
+        pretty(&view! {
+            files: self.files,
+            format: &table.format,
+            read: &table.read,
+            mass_kg: by_axis(&|axis| mass_kg.or(table.mass_kg[axis])),
+            effective_mass_ratio_sum: by_axis(&|axis| table.sum(axis, mass_kg)),
+            modes: each(modes, |(j, mode)| {
+                let participation = |axis: usize| match mode.shares[axis] {
+                    Some(Share::Participation(l)) => Some(l),
+                    _ => None,
+                };
+                view! {
+                    period_s: mode.period_s,
+                    damping_ratio: mode.damping_ratio,
+                    participation_sqrt_kg: by_axis(&participation),
+                    effective_mass_kg: by_axis(&|a| table.effective_mass_kg(j, a, mass_kg)),
+                    effective_mass_ratio: by_axis(&|a| table.ratio(j, a, mass_kg)),
+                }
+            }),
+            points: each(&table.points, |point| {
+                let [shape_x, shape_y] = &point.shapes;
+                view! { name: &point.name, shape_x, shape_y }
+            }),
+            notes: self.notes(),
+        })
     }
 
     /// A table of the modes with the sums of their effective masses.
@@ -149,7 +137,7 @@ impl ModalInfo<'_> {
             row.extend(axes.iter().map(|axis| percent(sums[*axis])));
             rows.push(row);
         }
-        out.push_str(&aligned(&rows));
+        out.push_str(&padded(&rows, |_| false));
         for note in self.notes() {
             out.push_str(&format!("Note     {}\n", visible(&note)));
         }
@@ -215,19 +203,4 @@ impl ModalInfo<'_> {
         let points = Axis::linear("Point", 0.0, table.points.len() as f64);
         panel(Axis::linear(label, -1.1, 1.1), points, 190.0, lines)
     }
-}
-
-/// Columns to the right, two spaces between them.
-fn aligned(rows: &[Vec<String>]) -> String {
-    let width = |column: usize| {
-        rows.iter().filter_map(|row| row.get(column)).map(|c| c.chars().count()).max().unwrap_or(0)
-    };
-    let line = |row: &Vec<String>| {
-        let cells = row
-            .iter()
-            .enumerate()
-            .map(|(i, cell)| format!("{}{cell}", " ".repeat(width(i) - cell.chars().count())));
-        format!("{}\n", cells.collect::<Vec<_>>().join("  "))
-    };
-    rows.iter().map(line).collect()
 }

@@ -4,15 +4,16 @@ mod page;
 
 pub use page::StudyReport;
 
-use std::fmt::Write as _;
-
 use slipstick::response::DemandColumn;
 use slipstick::study::{LevelSummary, StudySummary};
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 
+use crate::VERSION;
+use crate::assessment::sheet::{Table, cell};
 use crate::display::{DisplayUnits, Quantity, Unit};
+use crate::laboratory::text::aligned;
 use crate::markup::shortened;
-use crate::number::{compact, count, rounded, significant};
+use crate::number::{compact, count, rounded};
 
 /// What the runs warn of, a sentence a kind with the first run that does.
 #[must_use]
@@ -26,65 +27,59 @@ pub fn said(summary: &StudySummary) -> Vec<String> {
     summary.warned.iter().map(of).collect()
 }
 
-/// The table that the command prints: the demands that engineers ask for first, level by level.
+/// What the command prints: the demands that engineers ask for first, level by level.
 #[must_use]
 pub fn table(summary: &StudySummary, display: DisplayUnits) -> String {
-    let mut text = format!("{}  (slipstick {})\n", summary.name, env!("CARGO_PKG_VERSION"));
-    let bounded = summary.rows.iter().any(|row| row.friction.is_some());
-    for demand in shown(summary) {
-        let rows: Vec<&LevelSummary> = summary
-            .rows
-            .iter()
-            .filter(|row| row.demand == demand && row.max_run.is_some())
-            .collect();
-        if rows.is_empty() {
-            continue;
-        }
-        let unit = display.unit(demand.dimension().into(), largest(&rows));
-        let show = |si: f64| match si.is_infinite() {
-            true => "beyond".to_owned(),
-            false => significant(unit.of(si), 4),
-        };
-        let words = demand.demand.words;
-        let name = match demand.demand.of.part() {
-            None => words.to_owned(),
-            Some(_) => summary.names.title(&demand),
-        };
-        let _ = writeln!(text, "\n{}", unit.label(&name));
-        let friction = |text: &str| if bounded { format!("  {text:<8}") } else { String::new() };
-        let _ = writeln!(
-            text,
-            "{:>12}{} {:>9} {:>10} {:>10} {:>10} {:>10} {:>10}  {:<20} {:>9}",
-            summary.measure.as_ref().map_or("scale", |(name, _)| name.as_str()),
-            friction("friction"),
-            "runs",
-            "16 %",
-            "median",
-            "84 %",
-            "mean",
-            "max",
-            "of record",
-            "run"
-        );
-        for row in rows {
-            let [low, median, high] = row.quantiles.map(show);
-            let run = row.max_run.map_or_else(String::new, |run| run.to_string());
-            let _ = writeln!(
-                text,
-                "{:>12}{} {:>9} {low:>10} {median:>10} {high:>10} {:>10} {:>10}  {:<20} {run:>9}",
-                level(summary, row, display),
-                friction(row.friction.unwrap_or_default()),
-                count(row.runs - row.failures + row.beyond),
-                show(row.mean),
-                show(row.max),
-                shortened(file_name(&row.max_record), 20),
-            );
-        }
+    let mut text = format!("{}  (slipstick {VERSION})\n", summary.name);
+    for (heading, rows) in tables(summary, display) {
+        text.push_str(&format!("\n{heading}\n{}", aligned(&rows)));
     }
     if let Some(message) = without_answer(summary) {
-        let _ = writeln!(text, "\n{message}: see the column status");
+        text.push_str(&format!("\n{message}: see the column status\n"));
     }
     text
+}
+
+/// A table a demand, of those that engineers ask for first: a row a level.
+fn tables(summary: &StudySummary, display: DisplayUnits) -> Vec<Table> {
+    let bounded = summary.rows.iter().any(|row| row.friction.is_some());
+    let measure = summary.measure.as_ref().map_or("Scale", |(name, _)| name.as_str());
+    let heads = ["Runs", "16 %", "Median", "84 %", "Mean", "Largest", "Record", "Run"];
+    let friction = bounded.then_some("Friction");
+    let heads = [measure].into_iter().chain(friction).chain(heads);
+    let heads: Vec<String> = heads.map(str::to_owned).collect();
+    let of_demand = |demand: DemandColumn| {
+        let rows = rows(summary, demand);
+        let unit = display.unit(demand.dimension().into(), largest(&rows));
+        let number = |si: f64| match si.is_infinite() {
+            true => "beyond".to_owned(),
+            false => cell(unit.of(si)),
+        };
+        let of_level = |row: &&LevelSummary| {
+            let [low, median, high] = row.quantiles.map(number);
+            let cells = [
+                count(row.runs - row.failures + row.beyond),
+                low,
+                median,
+                high,
+                number(row.mean),
+                number(row.max),
+                shortened(file_name(&row.max_record), 24),
+                row.max_run.map_or_else(String::new, |run| run.to_string()),
+            ];
+            let friction = row.friction.map(str::to_owned);
+            [level(summary, row, display)].into_iter().chain(friction).chain(cells).collect()
+        };
+        let lines = core::iter::once(heads.clone()).chain(rows.iter().map(of_level)).collect();
+        (!rows.is_empty()).then(|| (unit.label(&summary.names.title(&demand)), lines))
+    };
+    shown(summary).into_iter().filter_map(of_demand).collect()
+}
+
+/// The rows of a demand that have values.
+fn rows(summary: &StudySummary, demand: DemandColumn) -> Vec<&LevelSummary> {
+    let of = |row: &&LevelSummary| row.demand == demand && row.max_run.is_some();
+    summary.rows.iter().filter(of).collect()
 }
 
 /// Largest of the values that are known, from which a unit follows.
@@ -211,10 +206,10 @@ mod tests {
         let name = "Tank".to_owned();
         let summary = StudySummary { name, measure, rows, names, warned: Vec::new() };
         let table = super::table(&summary, DisplayUnits::Si);
-        assert!(table.contains("\nresidual sliding displacement (mm)\n"), "{table}");
+        assert!(table.contains("\nResidual sliding displacement (mm)\n"), "{table}");
         assert!(table.contains("\nDeck peak drift (mm)\n"), "{table}");
         assert!(table.contains("0.102 g") && table.contains("-500.0"), "{table}");
-        assert!(!table.contains("gap ratio"), "{table}");
+        assert!(!table.contains("Gap ratio"), "{table}");
         assert!(
             table.ends_with("\n2 runs failed and are left out: see the column status\n"),
             "{table}"

@@ -295,7 +295,7 @@ impl Summary {
     /// numbers in shortest round-trip digits, finite or `null`.
     #[must_use]
     pub fn to_json(&self) -> String {
-        keys::object(self).to_pretty()
+        crate::json::pretty(self)
     }
 }
 

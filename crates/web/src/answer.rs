@@ -6,10 +6,10 @@ use slipstick::model::Model;
 use slipstick::notice::Notice;
 use slipstick::response::{Demands, EventKind, History, Response, StoreyDemands};
 use slipstick::units::{Dimension, parse_unit};
-use slipstick_report::display::{DisplayUnits, Quantity};
-use slipstick_report::json::Json;
+use slipstick_report::display::{DisplayUnits, Quantity, Unit};
+use slipstick_report::json::{Serialize, each, pretty};
 use slipstick_report::number::{compact, rounded};
-use slipstick_report::{Summary, describe, peaks};
+use slipstick_report::{Summary, describe, peaks, view};
 use wasm_bindgen::prelude::*;
 
 /// A response that is not judged yet.
@@ -131,7 +131,7 @@ impl Answer {
         let events = response.events.iter();
         let kind = |kind: EventKind| KINDS.iter().position(|k| *k == kind).unwrap_or(0) as u8;
         Self {
-            state: state(job, words, summary, display).to_pretty(),
+            state: pretty(&state(job, words, summary, display)),
             columns,
             mode: sliders.map(|mode| mode.sign() as i8).collect(),
             event_times_s: events.clone().map(|event| event.time_s).collect(),
@@ -146,7 +146,7 @@ pub fn roof(demands: &Demands) -> Option<&StoreyDemands> {
     demands.storeys.last().or(demands.points.last())
 }
 
-fn state(job: &Job, words: &str, summary: &Summary, display: DisplayUnits) -> Json {
+fn state(job: &Job, words: &str, summary: &Summary, display: DisplayUnits) -> impl Serialize {
     let analysis = &job.analysis;
     let model = &analysis.model;
     let slider = model.slider();
@@ -157,62 +157,50 @@ fn state(job: &Job, words: &str, summary: &Summary, display: DisplayUnits) -> Js
         Some(MotionSource::Pulse(_)) => "pulse",
         None => "",
     };
-    let numbers = |values: &[f64]| Json::List(values.iter().map(|v| (*v).into()).collect());
-    let (masses_kg, heights_m) = floors(model);
-    let stop_m = slider.stop().map(|stop| numbers(&stop_gaps(&stop.gap_m)));
-    let names = (1..=model.points()).map(|i| Json::Text(analysis.names.point(i)));
+    let (storey_masses_kg, heights_m) = floors(model);
     let demands = &summary.demands;
-    Json::Object(vec![
-        ("name", Json::Text(summary.model.clone())),
-        ("line", Json::Text(describe::model_line(model, display))),
-        ("inputs", Json::List(analysis.inputs().map(|input| value(&input, display)).collect())),
-        (
-            "motion",
-            Json::Object(vec![
-                ("kind", kind.into()),
-                ("words", words.into()),
-                ("pga_m_per_s2", summary.record.pga_m_per_s2.into()),
-                ("duration_s", summary.duration_s.into()),
-                ("dt_s", summary.dt_s.into()),
-            ]),
-        ),
-        (
-            "structure",
-            Json::Object(vec![
-                ("blockMass_kg", model.block().mass_kg.into()),
-                ("storeyMasses_kg", numbers(&masses_kg)),
-                ("heights_m", numbers(&heights_m)),
-                ("width_m", model.block().width_m.into()),
-                ("gap_m", slider.gap_m().into()),
-                ("stop_m", stop_m.unwrap_or(Json::Null)),
-                ("radius_m", slider.pendulum_radius_m(false).into()),
-                ("springs", (model.slider_stiffness_n_per_m() > 0.0).into()),
-                ("weight_n", model.weight_n().into()),
-                ("tilt_rad", slider.tilt_rad.into()),
-                ("contents", (demands.contents.len() as u64).into()),
-                ("storeyNames", Json::List(names.collect())),
-                ("blockName", analysis.names.block().into()),
-            ]),
-        ),
-        ("rows", rows(summary, display)),
-        ("runs", crate::session::texts(["nominal"].into_iter())),
-        ("warnings", warnings(summary, display)),
-        ("units", units(display, demands)),
-        (
-            "headline",
-            Json::Object(vec![
-                ("peak_m", demands.peak_sliding_displacement_m.into()),
-                ("peakTime_s", demands.peak_sliding_displacement_time_s.into()),
-                ("residual_m", demands.residual_sliding_displacement_m.into()),
-                ("block_m_per_s2", demands.peak_block_acceleration_m_per_s2.into()),
-                ("roof_m_per_s2", roof(demands).map(|roof| roof.peak_acceleration_m_per_s2).into()),
-                ("gapRatio", demands.gap_ratio.into()),
-                ("slips", demands.slip_count.into()),
-                ("baseShear", demands.base_shear_coefficient.into()),
-            ]),
-        ),
-        ("method", slipstick_report::summary::method_name(summary.method).into()),
-    ])
+    view! {
+        name: &summary.model,
+        line: describe::model_line(model, display),
+        inputs: each(analysis.inputs(), |input| value(input, display)),
+        motion: view! {
+            kind,
+            words,
+            pga_m_per_s2: summary.record.pga_m_per_s2,
+            duration_s: summary.duration_s,
+            dt_s: summary.dt_s,
+        },
+        structure: view! {
+            blockMass_kg: model.block().mass_kg,
+            storeyMasses_kg: storey_masses_kg,
+            heights_m,
+            width_m: model.block().width_m,
+            gap_m: slider.gap_m(),
+            stop_m: slider.stop().map(|stop| stop.gap_m),
+            radius_m: slider.pendulum_radius_m(false),
+            springs: model.slider_stiffness_n_per_m() > 0.0,
+            weight_n: model.weight_n(),
+            tilt_rad: slider.tilt_rad,
+            contents: demands.contents.len(),
+            storeyNames: each(1..=model.points(), |i| analysis.names.point(i)),
+            blockName: analysis.names.block(),
+        },
+        rows: rows(summary, display),
+        runs: ["nominal"],
+        warnings: warnings(summary, display),
+        units: units(display, demands),
+        headline: view! {
+            peak_m: demands.peak_sliding_displacement_m,
+            peakTime_s: demands.peak_sliding_displacement_time_s,
+            residual_m: demands.residual_sliding_displacement_m,
+            block_m_per_s2: demands.peak_block_acceleration_m_per_s2,
+            roof_m_per_s2: roof(demands).map(|roof| roof.peak_acceleration_m_per_s2),
+            gapRatio: demands.gap_ratio,
+            slips: demands.slip_count,
+            baseShear: demands.base_shear_coefficient,
+        },
+        method: slipstick_report::summary::method_name(summary.method),
+    }
 }
 
 /// Mass and height of the storeys in kg and m, as they are drawn; of a structure by its modes each point is
@@ -228,18 +216,13 @@ fn floors(model: &Model) -> (Vec<f64>, Vec<f64>) {
     (masses_kg, heights_m.unwrap_or_default())
 }
 
-fn stop_gaps(gaps_m: &[Option<f64>; 2]) -> Vec<f64> {
-    gaps_m.iter().map(|gap| gap.unwrap_or(f64::NAN)).collect()
-}
-
 /// A value in use: as written, and as it is shown and may be written in the units of the display.
-fn value(input: &Input<'_>, display: DisplayUnits) -> Json {
-    let mut keys = vec![("path", Json::from(input.path)), ("text", input.text.into())];
-    if let Some(si) = input.value {
+fn value(input: Input<'_>, display: DisplayUnits) -> impl Serialize {
+    let in_numbers = input.value.map(|value| {
         let dimension = Dimension::ALL.into_iter().find(|d| d.si_unit() == input.unit);
         let quantity = Quantity::from(dimension.filter(|_| !input.unit.is_empty()));
         let as_written = matches!(display, DisplayUnits::Si) || quantity == Quantity::Ratio;
-        let shown = match dimension.filter(|_| as_written && !input.unit.is_empty()) {
+        let (in_si, symbol) = match dimension.filter(|_| as_written && !input.unit.is_empty()) {
             Some(dimension) => {
                 // Times, frequencies and angles are in the same units everywhere.
                 let symbol = input
@@ -250,25 +233,19 @@ fn value(input: &Input<'_>, display: DisplayUnits) -> Json {
                 (one, if known { symbol } else { input.unit }.to_owned())
             }
             None => {
-                let unit = display.unit(quantity, si);
+                let unit = display.unit(quantity, value);
                 (unit.in_si, unit.symbol.to_owned())
             }
         };
-        keys.extend([
-            ("value", si.into()),
-            ("in_si", shown.0.into()),
-            ("symbol", Json::Text(shown.1)),
-            (
-                "shown",
-                Json::Text(if as_written {
-                    compact(si / shown.0)
-                } else {
-                    rounded(si / shown.0, 4)
-                }),
-            ),
-        ]);
+        let shown = value / in_si;
+        let shown = if as_written { compact(shown) } else { rounded(shown, 4) };
+        view! { value, in_si, symbol, shown }
+    });
+    view! {
+        path: input.path.to_owned(),
+        text: input.text.to_owned(),
+        #[serde(flatten)] in_numbers,
     }
-    Json::Object(keys)
 }
 
 fn in_si(symbol: &str, dimension: Dimension) -> f64 {
@@ -276,48 +253,47 @@ fn in_si(symbol: &str, dimension: Dimension) -> f64 {
 }
 
 /// Units of the plots, each by its largest value.
-fn units(display: DisplayUnits, demands: &Demands) -> Json {
+fn units(display: DisplayUnits, demands: &Demands) -> impl Serialize {
     let all = demands.storeys.iter().chain(&demands.points);
     let roof = all.fold(0.0_f64, |l, s| l.max(s.peak_displacement_m));
-    let unit = |quantity, largest: f64| {
-        let unit = display.unit(quantity, largest);
-        Json::Object(vec![("in_si", unit.in_si.into()), ("symbol", unit.symbol.into())])
-    };
-    Json::Object(vec![
-        ("length", unit(Quantity::Length, demands.peak_sliding_displacement_m.max(roof))),
-        ("velocity", unit(Quantity::Velocity, demands.peak_sliding_velocity_m_per_s)),
-        ("acceleration", unit(Quantity::Acceleration, demands.peak_block_acceleration_m_per_s2)),
-        ("force", unit(Quantity::Force, demands.peak_slider_force_n)),
-        (
-            "energy",
-            unit(Quantity::Energy, demands.peak_slider_force_n * demands.sliding_path_m * 0.5),
-        ),
-    ])
+    let unit = |quantity, largest: f64| shown_unit(display.unit(quantity, largest));
+    let force_n = demands.peak_slider_force_n;
+    view! {
+        length: unit(Quantity::Length, demands.peak_sliding_displacement_m.max(roof)),
+        velocity: unit(Quantity::Velocity, demands.peak_sliding_velocity_m_per_s),
+        acceleration: unit(Quantity::Acceleration, demands.peak_block_acceleration_m_per_s2),
+        force: unit(Quantity::Force, force_n),
+        energy: unit(Quantity::Energy, force_n * demands.sliding_path_m * 0.5),
+    }
 }
 
-pub fn rows(summary: &Summary, display: DisplayUnits) -> Json {
+/// A unit: its size in SI, and its symbol.
+pub fn shown_unit(unit: Unit) -> impl Serialize {
+    view! { in_si: unit.in_si, symbol: unit.symbol }
+}
+
+pub fn rows(summary: &Summary, display: DisplayUnits) -> impl Serialize {
     let all = peaks::rows(summary, display).into_iter().chain(peaks::count_rows(summary));
-    let one = |row: peaks::Row| {
-        Json::Object(vec![
-            ("label", Json::Text(row.label)),
-            ("unit", row.unit.into()),
-            ("values", Json::List(row.values.into_iter().map(Json::Text).collect())),
-            ("governing", row.governing.map_or(Json::Null, |i| Json::Count(i as u64))),
-        ])
-    };
-    Json::List(all.map(one).collect())
+    each(all, |peaks::Row { label, unit, values, governing, .. }| {
+        view! { label, unit, values, governing }
+    })
 }
 
-pub fn warnings(summary: &Summary, display: DisplayUnits) -> Json {
-    let all = summary.all_warnings();
-    let one = |(run, warning): &(Option<&'static str>, &Notice)| {
-        Json::Object(vec![
-            ("label", warning.label().into()),
-            ("kind", Json::Text(warning.kind.words())),
-            ("run", run.map_or(Json::Null, Json::from)),
-            ("time_s", warning.time_s.into()),
-            ("message", Json::Text(display.sentence(&warning.message))),
-        ])
-    };
-    Json::List(all.iter().map(one).collect())
+pub fn warnings(summary: &Summary, display: DisplayUnits) -> impl Serialize {
+    each(summary.all_warnings(), |(run, notice)| warning(run, notice, display))
+}
+
+/// A notice of a run, of all runs where none is named.
+pub fn warning(
+    run: Option<&'static str>,
+    notice: &Notice,
+    display: DisplayUnits,
+) -> impl Serialize {
+    view! {
+        label: notice.label(),
+        kind: notice.kind.words(),
+        run,
+        time_s: notice.time_s,
+        message: display.sentence(&notice.message),
+    }
 }

@@ -9,7 +9,8 @@ use slipstick::error::ChoiceError;
 use slipstick::error::InputError;
 #[cfg(feature = "whole")]
 use slipstick::requests::Door;
-use slipstick_report::json::Json;
+use slipstick_report::json::pretty;
+use slipstick_report::view;
 use wasm_bindgen::JsValue;
 
 /// What went wrong: a message, and where it points into a text that the page shows.
@@ -55,12 +56,7 @@ impl Failure {
 
 impl From<Failure> for JsValue {
     fn from(failure: Failure) -> Self {
-        let mut keys = vec![("message", Json::Text(failure.message))];
-        if let Some((source, [start, end])) = failure.place {
-            keys.push(("source", Json::Text(source)));
-            keys.push(("start", Json::Count(start as u64)));
-            keys.push(("end", Json::Count(end as u64)));
-        }
-        Self::from_str(&Json::Object(keys).to_pretty())
+        let place = failure.place.map(|(source, [start, end])| view! { source, start, end });
+        Self::from_str(&pretty(&view! { message: failure.message, #[serde(flatten)] place }))
     }
 }

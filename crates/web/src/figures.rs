@@ -1,52 +1,51 @@
 //! Drawings as data, for the page to draw them itself: to its width, in its colours, zoomed.
 
 use slipstick_report::figures::Drawn;
-use slipstick_report::json::Json;
+use slipstick_report::json::{Serialize, each};
 use slipstick_report::plot::{Axis, Layout, Limit, Panel, Series, Shape, Style};
-
-use crate::session::texts;
+use slipstick_report::view;
 
 /// `{id, caption, title, layout, panels, shaded}`; points as x, y, x, y …, null where a value is none.
-pub fn alive(drawn: &Drawn) -> Json {
+pub fn alive(drawn: &Drawn) -> impl Serialize {
     let figure = &drawn.figure;
     let layout = match figure.layout {
         Layout::Stacked => "stacked",
         Layout::Beside => "beside",
         Layout::Square => "square",
     };
-    Json::Object(vec![
-        ("id", figure.id.as_str().into()),
-        ("caption", drawn.caption.as_str().into()),
-        ("title", figure.title.as_str().into()),
-        ("layout", layout.into()),
-        ("panels", Json::List(figure.panels.iter().map(panel).collect())),
-        ("shaded", Json::List(figure.shaded.iter().map(|ends| numbers(ends)).collect())),
-    ])
+    view! {
+        id: &figure.id,
+        caption: &drawn.caption,
+        title: &figure.title,
+        layout,
+        panels: each(&figure.panels, panel),
+        shaded: &figure.shaded,
+    }
 }
 
-fn panel(panel: &Panel) -> Json {
-    Json::Object(vec![
-        ("x", axis(&panel.x)),
-        ("y", axis(&panel.y)),
-        ("height", panel.height.into()),
-        ("series", Json::List(panel.series.iter().map(series).collect())),
-        ("limits", Json::List(panel.limits.iter().map(limit).collect())),
-        ("peak", panel.peak.map_or(Json::Null, |peak| numbers(&peak))),
-        ("note", panel.note.as_str().into()),
-    ])
+fn panel(panel: &Panel) -> impl Serialize {
+    view! {
+        x: axis(&panel.x),
+        y: axis(&panel.y),
+        height: panel.height,
+        series: each(&panel.series, series),
+        limits: each(&panel.limits, limit),
+        peak: panel.peak,
+        note: &panel.note,
+    }
 }
 
-fn axis(axis: &Axis) -> Json {
-    Json::Object(vec![
-        ("label", axis.label.as_str().into()),
-        ("min", axis.min.into()),
-        ("max", axis.max.into()),
-        ("log", axis.logarithmic.into()),
-        ("names", texts(axis.names.iter().map(String::as_str))),
-    ])
+fn axis(axis: &Axis) -> impl Serialize {
+    view! {
+        label: &axis.label,
+        min: axis.min,
+        max: axis.max,
+        log: axis.logarithmic,
+        names: &axis.names,
+    }
 }
 
-fn series(series: &Series) -> Json {
+fn series(series: &Series) -> impl Serialize {
     let (shape, fill) = match series.shape {
         Shape::History => ("history", ""),
         Shape::Area(fill) => ("area", fill),
@@ -55,27 +54,23 @@ fn series(series: &Series) -> Json {
         Shape::Dots(fill) => ("dots", fill),
         Shape::Named => ("named", ""),
     };
-    let mut keys = vec![("label", Json::from(series.label.as_str()))];
-    keys.extend(style(series.style));
-    let points: Vec<f64> = series.points.iter().flatten().copied().collect();
-    keys.extend([("shape", shape.into()), ("fill", fill.into()), ("points", numbers(&points))]);
-    Json::Object(keys)
+    view! {
+        label: &series.label,
+        #[serde(flatten)] style: style(series.style),
+        shape,
+        fill,
+        points: series.points.as_flattened(),
+    }
 }
 
-fn limit(limit: &Limit) -> Json {
-    let mut keys = vec![("value", Json::from(limit.value)), ("label", limit.label.as_str().into())];
-    keys.extend(style(limit.style));
-    Json::Object(keys)
+fn limit(limit: &Limit) -> impl Serialize {
+    view! {
+        value: limit.value,
+        label: &limit.label,
+        #[serde(flatten)] style: style(limit.style),
+    }
 }
 
-fn style(style: Style) -> [(&'static str, Json); 3] {
-    [
-        ("colour", style.colour.into()),
-        ("width", style.width.into()),
-        ("dashes", style.dashes.into()),
-    ]
-}
-
-fn numbers(values: &[f64]) -> Json {
-    Json::List(values.iter().map(|value| (*value).into()).collect())
+fn style(style: Style) -> impl Serialize {
+    view! { colour: style.colour, width: style.width, dashes: style.dashes }
 }

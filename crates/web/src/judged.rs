@@ -4,10 +4,10 @@ use slipstick::assessment::single::{Job, Judged, Outcome};
 use slipstick::error::SolveError;
 use slipstick::response::{Demands, Response};
 use slipstick_report::display::{DisplayUnits, Quantity};
-use slipstick_report::json::Json;
+use slipstick_report::json::{Serialize, each, pretty};
 use slipstick_report::number::significant;
 use slipstick_report::tables::{events_csv, history_csv};
-use slipstick_report::{FileNote, InputText, Report, Summary, figures};
+use slipstick_report::{FileNote, InputText, Report, Summary, figures, view};
 use wasm_bindgen::prelude::*;
 
 use crate::answer::{roof, rows, warnings};
@@ -69,21 +69,20 @@ impl Judgement {
         let third = solved.map_or_else(none, of);
         let certificate = &outcome.nominal.certificate;
         let energy = certificate.energy();
-        let mut keys = vec![
-            ("text", text.into()),
-            ("rows", rows(summary, display)),
-            ("runs", crate::session::texts(summary.runs().iter().map(|(name, _)| *name))),
-            ("warnings", warnings(summary, display)),
-            ("certificate", checks(summary, outcome)),
-        ];
-        if let Some(fixed) = fixed {
-            keys.push(("fixedBase", fixed_base(&fixed, &outcome.nominal, display)));
-        }
-        if let Some(stepwise) = &stepwise {
-            keys.push(("stepwise", beside_stepwise(stepwise, &outcome.nominal.response, display)));
-        }
+        let nominal = &outcome.nominal;
+        let fixed = fixed.as_ref().map(|fixed| fixed_base(fixed, nominal, display));
+        let stepwise = stepwise.map(|found| beside_stepwise(found, &nominal.response, display));
+        let state = view! {
+            text,
+            rows: rows(summary, display),
+            runs: each(summary.runs(), |(name, _)| name),
+            warnings: warnings(summary, display),
+            certificate: checks(summary, outcome),
+            #[serde(flatten)] fixed: fixed.map(|fixed| view! { fixedBase: fixed }),
+            #[serde(flatten)] stepwise: stepwise.map(|stepwise| view! { stepwise }),
+        };
         Self {
-            state: Json::Object(keys).to_pretty(),
+            state: pretty(&state),
             energy: vec![
                 energy.input_j.clone(),
                 energy.kinetic_j.clone(),
@@ -172,133 +171,102 @@ impl JudgedRun<'_> {
         };
         match name {
             "report.html" => Ok(report.to_html()),
-            "figures" => Ok(drawings(&figures::all(&report)).to_pretty()),
+            "figures" => Ok(drawings(&figures::all(&report))),
             other => Err(Failure::of(format!("expected a file of a run, found {other:?}"))),
         }
     }
 }
 
 /// Figures as `[{id, caption, svg}]`.
-pub fn drawings(figures: &[figures::Drawn]) -> Json {
-    let one = |figure: &figures::Drawn| {
-        Json::Object(vec![
-            ("id", figure.id.as_str().into()),
-            ("caption", figure.caption.as_str().into()),
-            ("svg", figure.svg.as_str().into()),
-        ])
-    };
-    Json::List(figures.iter().map(one).collect())
+fn drawings(figures: &[figures::Drawn]) -> String {
+    pretty(&each(figures, |figure| {
+        view! { id: &figure.id, caption: &figure.caption, svg: figure.svg.as_str() }
+    }))
 }
 
-fn checks(summary: &Summary, outcome: &Outcome) -> Json {
+fn checks(summary: &Summary, outcome: &Outcome) -> impl Serialize {
     let checks = &summary.checks;
-    let figure = |name: &'static str, value: f64| {
-        Json::Object(vec![("name", name.into()), ("value", Json::Text(significant(value, 2)))])
-    };
-    let holds = checks.holds.map(|_| !summary.check_failed());
-    let call = checks.closest_call.map_or(Json::Null, |call| {
-        Json::Object(vec![
-            ("margin", Json::Text(significant(call.margin, 2))),
-            ("time_s", call.time_s.into()),
-            ("kind", Json::Text(call.decision())),
-        ])
-    });
-    let iterations = outcome.nominal.response.iterations.map_or(Json::Null, |iterations| {
-        Json::Object(vec![
-            ("mean", Json::Text(significant(iterations.mean, 3))),
-            ("max", Json::Count(u64::from(iterations.max))),
-        ])
-    });
-    Json::Object(vec![
-        ("holds", holds.map_or(Json::Null, Json::Bool)),
-        ("bound", Json::Text(significant(checks.bound, 2))),
-        (
-            "figures",
-            Json::List(vec![
-                figure("Equilibrium residual", checks.equilibrium_residual),
-                figure("Friction excess", checks.friction_excess),
-                figure("Energy balance error", checks.energy_balance_error),
-                figure("Demands error", checks.demands_error),
-            ]),
-        ),
-        ("closestCall", call),
-        ("iterations", iterations),
-    ])
+    let figures = [
+        ("Equilibrium residual", checks.equilibrium_residual),
+        ("Friction excess", checks.friction_excess),
+        ("Energy balance error", checks.energy_balance_error),
+        ("Demands error", checks.demands_error),
+    ];
+    view! {
+        holds: checks.holds.map(|_| !summary.check_failed()),
+        bound: significant(checks.bound, 2),
+        figures: each(figures, |(name, value)| view! { name, value: significant(value, 2) }),
+        closestCall: checks.closest_call.map(|call| {
+            view! {
+                margin: significant(call.margin, 2),
+                time_s: call.time_s,
+                kind: call.decision(),
+            }
+        }),
+        iterations: outcome.nominal.response.iterations.map(|iterations| {
+            view! { mean: significant(iterations.mean, 3), max: iterations.max }
+        }),
+    }
 }
 
 /// The structure on a fixed base beside the sliding one.
-fn fixed_base(fixed: &Demands, nominal: &Judged, display: DisplayUnits) -> Json {
+fn fixed_base(fixed: &Demands, nominal: &Judged, display: DisplayUnits) -> impl Serialize {
     let sliding = &nominal.response.demands;
-    let row = |label: &'static str, quantity, fixed: f64, sliding: f64| {
+    let row = |label: &'static str, quantity, of: &dyn Fn(&Demands) -> f64| {
+        let (fixed, sliding) = (of(fixed), of(sliding));
         let unit = display.unit(quantity, fixed.max(sliding));
-        Json::Object(vec![
-            ("label", label.into()),
-            ("unit", unit.symbol.into()),
-            ("fixed", Json::Text(significant(unit.of(fixed), 4))),
-            ("sliding", Json::Text(significant(unit.of(sliding), 4))),
-            ("ratio", Json::Text(significant(sliding / fixed, 3))),
-        ])
+        view! {
+            label,
+            unit: unit.symbol,
+            fixed: significant(unit.of(fixed), 4),
+            sliding: significant(unit.of(sliding), 4),
+            ratio: significant(sliding / fixed, 3),
+        }
     };
-    let roof = |demands: &Demands| demands.storeys.last().copied().unwrap_or_default();
+    let roof = |demands: &Demands| {
+        demands.storeys.last().copied().unwrap_or_default().peak_acceleration_m_per_s2
+    };
     let drift =
         |demands: &Demands| demands.storeys.iter().fold(0.0, |l: f64, s| l.max(s.peak_drift_m));
-    Json::List(vec![
-        row(
-            "Roof acceleration",
-            Quantity::Acceleration,
-            roof(fixed).peak_acceleration_m_per_s2,
-            roof(sliding).peak_acceleration_m_per_s2,
-        ),
-        row("Largest drift", Quantity::Length, drift(fixed), drift(sliding)),
-        row("Base shear", Quantity::Force, fixed.peak_base_shear_n, sliding.peak_base_shear_n),
-    ])
+    [
+        row("Roof acceleration", Quantity::Acceleration, &roof),
+        row("Largest drift", Quantity::Length, &drift),
+        row("Base shear", Quantity::Force, &|demands| demands.peak_base_shear_n),
+    ]
 }
 
 /// The stepwise method beside the exact one.
 fn beside_stepwise(
-    stepwise: &Result<Response, SolveError>,
+    stepwise: Result<Response, SolveError>,
     exact: &Response,
     display: DisplayUnits,
-) -> Json {
-    let stepwise = match stepwise {
-        Ok(stepwise) => stepwise,
-        Err(error) => return Json::Object(vec![("error", Json::Text(error.to_string()))]),
+) -> impl Serialize {
+    let (stepwise, error) = match stepwise {
+        Ok(stepwise) => (Some(stepwise), None),
+        Err(error) => (None, Some(view! { error: error.to_string() })),
     };
-    let row = |label: &'static str, exact: f64, stepwise: f64| {
-        let unit = display.unit(Quantity::Length, exact.abs().max(stepwise.abs()));
-        Json::Object(vec![
-            ("label", label.into()),
-            ("unit", unit.symbol.into()),
-            ("exact", Json::Text(significant(unit.of(exact), 4))),
-            ("stepwise", Json::Text(significant(unit.of(stepwise), 4))),
-        ])
-    };
-    let (a, b) = (&exact.demands, &stepwise.demands);
-    let iterations = stepwise.iterations.map_or(Json::Null, |iterations| {
-        let words = format!(
-            "{} iterations a step, {} at most",
-            significant(iterations.mean, 3),
-            iterations.max
-        );
-        Json::Text(words)
+    let found = stepwise.map(|stepwise| {
+        let row = |label: &'static str, of: &dyn Fn(&Demands) -> f64| {
+            let (exact, stepwise) = (of(&exact.demands), of(&stepwise.demands));
+            let unit = display.unit(Quantity::Length, exact.abs().max(stepwise.abs()));
+            view! {
+                label,
+                unit: unit.symbol,
+                exact: significant(unit.of(exact), 4),
+                stepwise: significant(unit.of(stepwise), 4),
+            }
+        };
+        view! {
+            rows: [
+                row("Peak sliding displacement", &|d| d.peak_sliding_displacement_m),
+                row("Residual sliding displacement", &|d| d.residual_sliding_displacement_m),
+                row("Sliding path", &|d| d.sliding_path_m),
+            ],
+            iterations: stepwise.iterations.map(|iterations| {
+                let mean = significant(iterations.mean, 3);
+                format!("{mean} iterations a step, {} at most", iterations.max)
+            }),
+        }
     });
-    Json::Object(vec![
-        (
-            "rows",
-            Json::List(vec![
-                row(
-                    "Peak sliding displacement",
-                    a.peak_sliding_displacement_m,
-                    b.peak_sliding_displacement_m,
-                ),
-                row(
-                    "Residual sliding displacement",
-                    a.residual_sliding_displacement_m,
-                    b.residual_sliding_displacement_m,
-                ),
-                row("Sliding path", a.sliding_path_m, b.sliding_path_m),
-            ]),
-        ),
-        ("iterations", iterations),
-    ])
+    view! { #[serde(flatten)] error, #[serde(flatten)] found }
 }

@@ -15,7 +15,9 @@ use slipstick::record::{Quantity, Sampling, Units};
 #[cfg(feature = "whole")]
 use slipstick::units::{Dimension, parse_quantity};
 #[cfg(feature = "whole")]
-use slipstick_report::json::Json;
+use slipstick_report::json::{each, pretty};
+#[cfg(feature = "whole")]
+use slipstick_report::view;
 
 use crate::failure::Failure;
 use crate::session::MODEL;
@@ -151,33 +153,28 @@ impl Records {
 #[cfg(feature = "whole")]
 impl Records {
     /// What is in a file: `{layout, plain, channels}`, plain where it needs no more to be a motion.
-    pub fn inspect(&mut self, name: &str, units: &str, dt: &str) -> Result<Json, Failure> {
+    pub fn inspect(&mut self, name: &str, units: &str, dt: &str) -> Result<String, Failure> {
         let options = options(units, dt)?;
         let missing = || Failure::of(format!("{name}: expected a file, found none of this name"));
         let record = self.read(name, &options).ok_or_else(missing)?.map_err(Failure::of)?;
-        let channels = record.channels.iter().enumerate().map(|(i, channel)| {
-            let dt_s = match channel.sampling {
-                Sampling::Dt(dt_s) => Some(dt_s),
-                Sampling::Times(_) => None,
-            };
-            let alone = record.channels.iter().filter(|c| c.name == channel.name).count() == 1;
-            let name = if alone { channel.name.clone() } else { (i + 1).to_string() };
-            Json::Object(vec![
-                ("name", Json::Text(name)),
-                ("quantity", channel.units.quantity().name().into()),
-                ("usable", (channel.units.quantity() == Quantity::Acceleration).into()),
-                ("counts", (channel.units.quantity() == Quantity::Counts).into()),
-                ("values", (channel.values.len() as u64).into()),
-                ("dt_s", dt_s.into()),
-                ("words", Json::Text(record.describe(channel))),
-            ])
-        });
         let plain = Loaded::recorded(Wanted { record, channel: None }, None).is_ok();
-        Ok(Json::Object(vec![
-            ("layout", record.layout.as_str().into()),
-            ("plain", plain.into()),
-            ("channels", Json::List(channels.collect())),
-        ]))
+        let channels = each(record.channels.iter().enumerate(), |(i, channel)| {
+            let alone = record.channels.iter().filter(|c| c.name == channel.name).count() == 1;
+            let quantity = channel.units.quantity();
+            view! {
+                name: if alone { channel.name.clone() } else { (i + 1).to_string() },
+                quantity: quantity.name(),
+                usable: quantity == Quantity::Acceleration,
+                counts: quantity == Quantity::Counts,
+                values: channel.values.len(),
+                dt_s: match channel.sampling {
+                    Sampling::Dt(dt_s) => Some(dt_s),
+                    Sampling::Times(_) => None,
+                },
+                words: record.describe(channel),
+            }
+        });
+        Ok(pretty(&view! { layout: &record.layout, plain, channels }))
     }
 }
 

@@ -13,7 +13,6 @@ use slipstick::response::Method;
 #[cfg(feature = "whole")]
 use slipstick::response::Response;
 use slipstick::solver::{self, Prepared, PreparedMotion};
-use slipstick_report::json::Json;
 use slipstick_report::{DisplayUnits, Summary};
 use wasm_bindgen::prelude::*;
 
@@ -236,9 +235,4 @@ pub(crate) fn parse(text: &str, set: &[Override]) -> Result<Analysis, Failure> {
 
 pub(crate) fn display_units(name: &str) -> DisplayUnits {
     DisplayUnits::of_name(name).unwrap_or_default()
-}
-
-/// A list of texts.
-pub(crate) fn texts<'a>(texts: impl Iterator<Item = &'a str>) -> Json {
-    Json::List(texts.map(Json::from).collect())
 }

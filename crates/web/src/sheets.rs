@@ -23,16 +23,17 @@ use slipstick::table::Table;
 use slipstick_report::DisplayUnits;
 use slipstick_report::assessment::answer::Tabled;
 use slipstick_report::assessment::{Provenance, Sheet, answer};
-use slipstick_report::json::Json;
+use slipstick_report::json::{each, pretty};
 use slipstick_report::study::StudyReport;
-use slipstick_report::{FileNote, InputText, report};
+use slipstick_report::{FileNote, InputText, report, view};
 use wasm_bindgen::prelude::*;
 
+use crate::answer::warning;
 use crate::failure::Failure;
 use crate::figures;
 use crate::records::Records;
 use crate::runs;
-use crate::session::{MODEL, UNNAMED, parse, texts};
+use crate::session::{MODEL, UNNAMED, parse};
 use crate::whole::files_of_motion;
 
 #[wasm_bindgen]
@@ -87,51 +88,28 @@ impl Page {
         files: &[FileNote<'_>],
         again: &Again,
     ) -> Self {
-        let table = |(heading, rows): &(String, Vec<Vec<String>>)| {
-            let rows = rows.iter().map(|row| texts(row.iter().map(String::as_str)));
-            Json::Object(vec![
-                ("heading", heading.as_str().into()),
-                ("rows", Json::List(rows.collect())),
-            ])
-        };
-        let warning = |warning: &Notice| {
-            Json::Object(vec![
-                ("label", warning.label().into()),
-                ("kind", Json::Text(warning.kind.words())),
-                ("run", Json::Null),
-                ("time_s", warning.time_s.into()),
-                ("message", Json::Text(sheet.display.sentence(&warning.message))),
-            ])
-        };
-        let record = |(path, text, file): &(String, Option<String>, String)| {
-            let text = text.as_deref().map_or(Json::Null, Json::from);
-            let (path, file) = (path.as_str().into(), file.as_str().into());
-            Json::Object(vec![("path", path), ("text", text), ("file", file)])
-        };
-        let list = |all: &[String]| texts(all.iter().map(String::as_str));
         let first = sheet.first.as_ref().map(|(name, sentence)| format!("{name}: {sentence}"));
-        let state = Json::Object(vec![
-            ("kind", sheet.kind.into()),
-            ("line", sheet.line.as_str().into()),
-            ("first", first.map_or(Json::Null, Json::Text)),
-            ("verdict", list(&sheet.verdict)),
-            ("warnings", Json::List(sheet.warnings.iter().map(warning).collect())),
-            ("tables", Json::List(sheet.tables.iter().map(table).collect())),
-            ("notes", list(&sheet.notes)),
-            ("method", list(&sheet.method)),
-            ("figures", Json::List(sheet.figures.iter().map(figures::alive).collect())),
-            ("commands", texts(again.commands.iter().map(String::as_str))),
-            ("records", Json::List(again.records.iter().map(record).collect())),
-        ]);
+        let state = pretty(&view! {
+            kind: sheet.kind,
+            line: &sheet.line,
+            first,
+            verdict: &sheet.verdict,
+            warnings: each(&sheet.warnings, |notice| warning(None, notice, sheet.display)),
+            tables: each(&sheet.tables, |(heading, rows)| view! { heading, rows }),
+            notes: &sheet.notes,
+            method: &sheet.method,
+            figures: each(&sheet.figures, figures::alive),
+            commands: &again.commands,
+            records: each(&again.records, |(path, text, file)| view! { path, text, file }),
+        });
         let command_line = again.commands.last().map_or("", String::as_str);
         let (provenance, out) =
             (Provenance { command_line, files, inputs }, exported.unwrap_or(sheet));
-        let tables = again.tables.to_pretty();
         Self {
-            state: state.to_pretty(),
+            state,
             html: out.to_html(&provenance),
             json: out.to_json(),
-            tables,
+            tables: again.tables.clone(),
         }
     }
 }
@@ -143,7 +121,7 @@ struct Again {
     /// The records: their paths, their texts where those are not the files that were dropped, the files.
     records: Vec<(String, Option<String>, String)>,
     /// The tables of its runs.
-    tables: Json,
+    tables: String,
 }
 
 /// A record, and what its file does not say; empty where it does.
@@ -258,7 +236,7 @@ pub fn form(
     text: &str,
     set: &[Override],
     display: DisplayUnits,
-) -> Result<Json, Failure> {
+) -> Result<String, Failure> {
     let model = &parse(text, set)?;
     let models = Models::new(MODEL, text, set, &[], false);
     let demands = models.map_err(|error| Failure::assessment(&error, text))?.columns();
@@ -269,28 +247,28 @@ pub fn form(
             fields.push(field);
         }
     }
-    let shown = |field: &&Field| {
+    let shown = each(fields, |field| {
         let (takes, words): (_, &[&str]) = match field.takes {
             Takes::One => ("one", &[]),
             Takes::Many => ("many", &[]),
             Takes::Flag => ("flag", &[]),
             Takes::Choice(words) => ("choice", words),
         };
-        Json::Object(vec![
-            ("name", field.name.into()),
-            ("label", Json::Text(Door::Page.calls(field.name))),
-            ("takes", takes.into()),
-            ("words", texts(words.iter().copied())),
-            ("default", field.default.into()),
-            ("start", field.start(model).into()),
-            ("about", field.about.into()),
-        ])
-    };
-    Ok(Json::Object(vec![
-        ("about", Kind::of_name(what).map_or("", Kind::about).into()),
-        ("fields", Json::List(fields.iter().map(shown).collect())),
-        ("demands", runs::demands(&demands, display)),
-    ]))
+        view! {
+            name: field.name,
+            label: Door::Page.calls(field.name),
+            takes,
+            words,
+            default: field.default,
+            start: field.start(model),
+            about: field.about,
+        }
+    });
+    Ok(pretty(&view! {
+        about: Kind::of_name(what).map_or("", Kind::about),
+        fields: shown,
+        demands: runs::demands(&demands, display),
+    }))
 }
 
 /// Runs something with an engine that tells the page of its progress.
@@ -677,21 +655,19 @@ impl Planned {
 
     /// What makes a run by itself: `{record, scale, friction, set: [[path, value]]}`, without a record where the motion is
     /// made.
-    pub fn run(&self, run: u64) -> Result<Json, Failure> {
+    pub fn run(&self, run: u64) -> Result<String, Failure> {
         let case = self.study.case(run.min(self.study.runs().saturating_sub(1)));
         let set =
             self.study.overrides(&case).map_err(|error| Failure::input(&error, &self.text))?;
-        let pair = |text: &String| {
-            let (path, value) = text.split_once('=').unwrap_or((text, ""));
-            texts([path, value].into_iter())
-        };
-        let record = self.study.records().get(case.record);
-        Ok(Json::Object(vec![
-            ("record", record.map_or(Json::Null, |record| record.name.as_str().into())),
-            ("scale", case.scale.into()),
-            ("friction", self.study.bound(&case).name.into()),
-            ("set", Json::List(set.iter().map(pair).collect())),
-        ]))
+        Ok(pretty(&view! {
+            record: self.study.records().get(case.record).map(|record| &record.name),
+            scale: case.scale,
+            friction: self.study.bound(&case).name,
+            set: each(&set, |text| {
+                let (path, value) = text.split_once('=').unwrap_or((text, ""));
+                [path, value]
+            }),
+        }))
     }
 
     /// What all its rows tell.

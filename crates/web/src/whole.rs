@@ -29,7 +29,7 @@ impl Session {
     /// # Errors
     /// With line and column where the bytes are no record.
     pub fn inspect(&mut self, name: &str, units: &str, dt: &str) -> Result<String, JsValue> {
-        Ok(self.records.inspect(name, units, dt)?.to_pretty())
+        Ok(self.records.inspect(name, units, dt)?)
     }
 
     /// Judges the last answer and says its model's text with the keys set, comments kept; with lower- and upper-bound friction, the same structure on a fixed base
@@ -131,8 +131,7 @@ impl Session {
     /// # Errors
     /// With the place in the text where the model cannot be understood.
     pub fn form(&self, what: &str, text: &str, display: &str) -> Result<String, JsValue> {
-        Ok(sheets::form(what, text, &self.records.modes(text)?, display_units(display))?
-            .to_pretty())
+        Ok(sheets::form(what, text, &self.records.modes(text)?, display_units(display))?)
     }
 
     /// What is known of a record: `{pga, pgv, measure, duration_s, notices}`, the first three with their units;
@@ -151,9 +150,7 @@ impl Session {
         let options = crate::records::options(said(1), said(2))?;
         let channel = Some(said(3)).filter(|channel| !channel.is_empty());
         let display = display_units(display);
-        let found =
-            runs::surveyed(&mut self.records, said(0), &options, channel, measure, display)?;
-        Ok(found.to_pretty())
+        Ok(runs::surveyed(&mut self.records, said(0), &options, channel, measure, display)?)
     }
 
     /// The plan of a study of what is asked, as [`Session::assess`] takes it.
@@ -212,7 +209,7 @@ impl Session {
         names: Vec<String>,
         run: u32,
     ) -> Result<String, JsValue> {
-        Ok(self.planned(plan, text, &names)?.run(u64::from(run))?.to_pretty())
+        Ok(self.planned(plan, text, &names)?.run(u64::from(run))?)
     }
 
     /// What all rows of a study tell, in their order.

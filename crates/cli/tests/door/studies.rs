@@ -104,7 +104,7 @@ fn row(folder: &Folder, file: &str, run: u64) -> BTreeMap<String, f64> {
 fn whole_study_has_every_run_in_order() {
     let folder = folder("study-whole");
     let table = folder.stdout(&["study", "plan.toml", "--out", "out"]);
-    assert!(table.contains("peak sliding displacement (m)"), "{table}");
+    assert!(table.contains("Peak sliding displacement (m)"), "{table}");
     assert!(table.contains("0.2 g") && table.contains("a.csv"), "{table}");
     assert_eq!(folder.names("out"), WRITTEN);
     folder.stdout(&["study", "merge", "out", "--out", "all.parquet"]);

@@ -1,4 +1,7 @@
 //! Keys set in a model's text, all else as it stands: comments, blanks, the order of the keys.
+//!
+//! By hand rather than by `toml_edit`, which writes ends of lines anew and moves dotted keys: see `decisions.md`
+//! of the book.
 
 use std::ops::Range;
 

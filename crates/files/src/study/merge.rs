@@ -6,7 +6,8 @@ use slipstick::input::plan::Method;
 use slipstick::study::StudySummary;
 use slipstick::study::engine::Engine;
 use slipstick::table::Cells;
-use slipstick_report::json::{Json, worst_keys};
+use slipstick_report::json::{each, pretty, worst_keys};
+use slipstick_report::view;
 
 use super::part::{self, Checks, Notes, PartFile};
 use super::parts::{MANIFEST, PARTS, PartsFound, SUMMARY, find, held};
@@ -43,67 +44,57 @@ pub fn conclude(
     let files = found.whole;
     let summary = summary::of(study, &files, engine)?;
     summary::write(&folder.join(SUMMARY), &summary)?;
-    write_whole(&folder.join(MANIFEST), manifest(study, &files).to_pretty().as_bytes())?;
+    write_whole(&folder.join(MANIFEST), manifest(study, &files).as_bytes())?;
     Ok(summary)
 }
 
 /// What the manifest says: version, plan, inputs with their hashes, seed, counts and checks. Nothing
 /// in it depends on when, where or by which machine the study was run.
-fn manifest(study: &OpenStudy, files: &[PartFile]) -> Json {
+fn manifest(study: &OpenStudy, files: &[PartFile]) -> String {
     let total = totals(files);
     let cases = study.study.cases();
     let sampling = study.plan.sampling.as_ref();
-    let method = sampling.map(|sampling| match sampling.method {
-        Method::Sobol => "sobol",
-        Method::LatinHypercube => "latin-hypercube",
-        Method::Grid => "grid",
-    });
-    let text = |text: Option<&str>| text.map_or(Json::Null, Json::from);
-    let inputs = study.inputs.iter().map(|(name, sha256)| {
-        Json::Object(vec![("path", name.as_str().into()), ("sha256", sha256.as_str().into())])
-    });
     let bounds = study.study.bounds().iter().filter(|_| study.study.has_bounds());
-    Json::Object(vec![
-        ("slipstick", env!("CARGO_PKG_VERSION").into()),
-        ("study", study.id.as_str().into()),
-        ("name", text(study.plan.name.as_deref())),
-        ("plan", study.plan_text.as_str().into()),
-        ("inputs", Json::List(inputs.collect())),
-        ("method", text(method)),
-        ("seed", sampling.and_then(|sampling| sampling.seed).map_or(Json::Null, Json::Count)),
-        ("records", cases.records.into()),
-        ("levels", cases.levels.into()),
-        ("samples", cases.samples.into()),
-        ("bounds", Json::List(bounds.map(|bound| bound.name.into()).collect())),
-        ("runs", study.study.runs().into()),
-        ("rows", total.rows.into()),
-        ("complete", (total.rows == study.study.runs()).into()),
-        ("failures", total.failures.into()),
-        ("checks", checks(&total.checks)),
-        ("parts", Json::List(files.iter().map(part_of_manifest).collect())),
-    ])
-}
-
-/// A part by its path from the manifest, its runs and the hash of its file.
-fn part_of_manifest(file: &PartFile) -> Json {
-    let name = file.table.path.file_name().map_or_else(Default::default, |n| n.to_string_lossy());
-    Json::Object(vec![
-        ("path", Json::Text(format!("{PARTS}/{name}"))),
-        ("first_run", file.notes.first.into()),
-        ("rows", file.notes.rows.into()),
-        ("sha256", file.sha256.as_str().into()),
-    ])
-}
-
-fn checks(checks: &Checks) -> Json {
-    Json::Object(vec![
-        ("rows", checks.rows.into()),
-        ("equilibrium_residual", checks.equilibrium_residual.into()),
-        ("friction_excess", checks.friction_excess.into()),
-        ("energy_balance_error", checks.energy_balance_error.into()),
-        ("demands_error", checks.demands_error.into()),
-        ("worst", checks.worst.as_ref().map_or(Json::Null, worst_keys)),
-    ])
+    let checks = &total.checks;
+    pretty(&view! {
+        slipstick: env!("CARGO_PKG_VERSION"),
+        study: &study.id,
+        name: &study.plan.name,
+        plan: &study.plan_text,
+        inputs: each(&study.inputs, |(path, sha256)| view! { path, sha256 }),
+        method: sampling.map(|sampling| match sampling.method {
+            Method::Sobol => "sobol",
+            Method::LatinHypercube => "latin-hypercube",
+            Method::Grid => "grid",
+        }),
+        seed: sampling.and_then(|sampling| sampling.seed),
+        records: cases.records,
+        levels: cases.levels,
+        samples: cases.samples,
+        bounds: each(bounds, |bound| bound.name),
+        runs: study.study.runs(),
+        rows: total.rows,
+        complete: total.rows == study.study.runs(),
+        failures: total.failures,
+        checks: view! {
+            rows: checks.rows,
+            equilibrium_residual: checks.equilibrium_residual,
+            friction_excess: checks.friction_excess,
+            energy_balance_error: checks.energy_balance_error,
+            demands_error: checks.demands_error,
+            worst: checks.worst.as_ref().map(worst_keys),
+        },
+        // A part by its path from the manifest, its runs and the hash of its file.
+        parts: each(files, |PartFile { table, notes, sha256, .. }| {
+            let name = table.path.file_name().map(|name| name.to_string_lossy());
+            view! {
+                path: format!("{PARTS}/{}", name.unwrap_or_default()),
+                first_run: notes.first,
+                rows: notes.rows,
+                sha256,
+            }
+        }),
+    })
 }
 
 fn totals(files: &[PartFile]) -> Merged {

@@ -2,6 +2,7 @@
 
 mod figures;
 
+use serde::Serialize;
 use slipstick::assessment::design::{Bounded, DesignRun, Figures, Point, Target};
 use slipstick::assessment::grid::Axis;
 use slipstick::assessment::sensitivity::Index;
@@ -11,8 +12,9 @@ use slipstick::study::travel_used_up;
 use super::key::title;
 use super::sheet::{Sheet, cell, counted_as, failed};
 use crate::display::{DisplayUnits, Quantity, Unit};
-use crate::json::Json;
+use crate::json::{each, pretty};
 use crate::number::compact;
+use crate::view;
 
 /// What a design is told from.
 #[derive(Clone, Debug)]
@@ -109,7 +111,7 @@ impl DesignReport<'_> {
             notes: self.notes(),
             figures: self.figures(),
             method: self.method(),
-            json: self.json(),
+            json: pretty(&self.json()),
             ..Sheet::default()
         }
     }
@@ -374,77 +376,66 @@ impl DesignReport<'_> {
         method
     }
 
-    fn json(&self) -> Vec<(&'static str, Json)> {
-        let pair = |[low, high]: [f64; 2]| Json::List(vec![low.into(), high.into()]);
+    fn json(&self) -> impl Serialize {
         let figures = |f: &Figures| {
-            Json::Object(vec![
-                ("displacement_m", f.displacement_m.into()),
-                ("acceleration_m_per_s2", f.acceleration_m_per_s2.into()),
-                ("probability_within_gap", f.within.estimate().into()),
-                ("wilson", pair(f.within.wilson(self.confidence))),
-                ("clopper_pearson", pair(f.within.clopper_pearson(self.confidence))),
-            ])
+            view! {
+                displacement_m: f.displacement_m,
+                acceleration_m_per_s2: f.acceleration_m_per_s2,
+                probability_within_gap: f.within.estimate(),
+                wilson: f.within.wilson(self.confidence),
+                clopper_pearson: f.within.clopper_pearson(self.confidence),
+            }
         };
-        let point = |p: &Point| {
-            let values = self.values(p.design).into_iter().map(Json::from).collect();
+        let point = |p: Point| {
             let bounded =
                 self.bounded().and_then(|(_, all)| all.iter().find(|b| b.design == p.design));
-            Json::Object(vec![
-                ("values", Json::List(values)),
-                ("nominal", figures(&p.figures)),
-                ("lower", bounded.map_or(Json::Null, |b| figures(&b.lower))),
-                ("upper", bounded.map_or(Json::Null, |b| figures(&b.upper))),
-            ])
-        };
-        let optional = |p: Option<Point>| p.map_or(Json::Null, |p| point(&p));
-        let variable = |v: &Axis| {
-            Json::Object(vec![
-                ("path", v.path.as_str().into()),
-                ("unit", v.unit.as_str().into()),
-                ("values", Json::List(v.values.iter().map(|x| Json::from(*x)).collect())),
-            ])
-        };
-        let index = |(v, i): (&Axis, &Index)| {
-            Json::Object(vec![
-                ("path", v.path.as_str().into()),
-                ("first", i.first.into()),
-                ("first_interval", pair(i.first_interval)),
-                ("total", i.total.into()),
-                ("total_interval", pair(i.total_interval)),
-            ])
-        };
-        let sensitivity = match self.run.sensitivity.as_ref() {
-            Some(Ok(s)) => {
-                let of = |all: &[Index]| {
-                    Json::List(self.run.variables.iter().zip(all).map(index).collect())
-                };
-                Json::Object(vec![
-                    ("points", Json::Count(s.points as u64)),
-                    ("displacement", of(&s.displacement)),
-                    ("acceleration", of(&s.acceleration)),
-                ])
+            view! {
+                values: self.values(p.design),
+                nominal: figures(&p.figures),
+                lower: bounded.map(|b| figures(&b.lower)),
+                upper: bounded.map(|b| figures(&b.upper)),
             }
-            _ => Json::Null,
         };
-        vec![
-            ("model", self.name.into()),
-            ("records", Json::Count(self.records as u64)),
-            ("gap_m", self.target.gap_m.into()),
-            ("probability", self.target.probability.into()),
-            ("acceleration", self.acceleration.into()),
-            ("acceleration_share", self.target.acceleration_share.into()),
-            ("confidence", self.confidence.into()),
-            ("variables", Json::List(self.run.variables.iter().map(variable).collect())),
-            ("runs", Json::Count(self.run.found.runs)),
-            ("failed", Json::Count(self.run.failures.len() as u64)),
-            ("used_up_travel", Json::Count(travel_used_up(&self.run.failures) as u64)),
-            ("designs_beyond_gap", Json::Count(self.run.found.beyond_gap as u64)),
-            ("chosen", optional(self.run.found.chosen())),
-            ("robust", optional(self.robust())),
-            ("nearest", optional(self.run.found.nearest)),
-            ("front", Json::List(self.run.found.front.iter().map(point).collect())),
-            ("sensitivity", sensitivity),
-        ]
+        let DesignRun { variables, found, failures, sensitivity, .. } = self.run;
+        let indices = |all: &[Index]| {
+            each(variables.iter().zip(all), |(v, i)| {
+                view! {
+                    path: v.path.clone(),
+                    first: i.first,
+                    first_interval: i.first_interval,
+                    total: i.total,
+                    total_interval: i.total_interval,
+                }
+            })
+        };
+        let sensitivity = sensitivity.as_ref().and_then(|s| s.as_ref().ok());
+        view! {
+            model: self.name,
+            records: self.records,
+            gap_m: self.target.gap_m,
+            probability: self.target.probability,
+            acceleration: self.acceleration,
+            acceleration_share: self.target.acceleration_share,
+            confidence: self.confidence,
+            variables: each(variables, |Axis { path, unit, values, .. }| {
+                view! { path, unit, values }
+            }),
+            runs: found.runs,
+            failed: failures.len(),
+            used_up_travel: travel_used_up(failures),
+            designs_beyond_gap: found.beyond_gap,
+            chosen: found.chosen().map(point),
+            robust: self.robust().map(point),
+            nearest: found.nearest.map(point),
+            front: each(found.front.iter().copied(), point),
+            sensitivity: sensitivity.map(|s| {
+                view! {
+                    points: s.points,
+                    displacement: indices(&s.displacement),
+                    acceleration: indices(&s.acceleration),
+                }
+            }),
+        }
     }
 }
 

@@ -3,9 +3,10 @@
 mod family;
 mod figures;
 
+use serde::Serialize;
 use slipstick::assessment::censored::Known;
 use slipstick::assessment::fragility::{
-    Capacity, Certainty, CloudPoint, Stripe, test_counts, test_normality,
+    Certainty, CloudPoint, Stripe, test_counts, test_normality,
 };
 use slipstick::assessment::observed::{Data, FragilityRun};
 use slipstick::notice::NoticeKind;
@@ -13,8 +14,9 @@ use slipstick::notice::NoticeKind;
 use super::key::{of_measure, quantity, title};
 use super::sheet::{Sheet, cell};
 use crate::display::{DisplayUnits, Unit};
-use crate::json::Json;
+use crate::json::{each, pretty};
 use crate::number::compact;
+use crate::view;
 
 pub use family::FragilityFamily;
 
@@ -119,11 +121,11 @@ impl FragilityReport<'_> {
             verdict: vec![self.verdict(unit)],
             warnings: self.run.warnings.clone(),
             tables: self.tables(unit),
-            notes: self.goodness().1,
+            notes: vec![self.goodness().1],
             figures,
             method: self.method(),
             complete: self.complete(),
-            json: self.json(),
+            json: pretty(&self.json()),
             ..Sheet::default()
         }
     }
@@ -267,34 +269,32 @@ impl FragilityReport<'_> {
         tables
     }
 
-    /// Goodness of fit, as JSON and in words.
-    fn goodness(&self) -> (Json, Vec<String>) {
+    /// Goodness of fit, where it is tested, and that in words.
+    fn goodness(&self) -> (Option<GoodnessOfFit>, String) {
         let normality = |values: &[f64], of: &str| {
-            match test_normality(values) {
-            Some(test) => (
-                Json::Object(vec![
-                    ("test", "anderson_darling".into()),
-                    ("statistic", test.anderson_darling.into()),
-                    ("p_value", test.p_value.into()),
-                    ("largest_difference", test.largest_difference.into()),
-                ]),
-                format!(
-                    "Goodness of fit: Anderson and Darling's A² of {of} is {}, p = {}; largest \
-                     difference from the fitted distribution {}. {}",
-                    cell(test.anderson_darling),
-                    cell(test.p_value),
-                    cell(test.largest_difference),
-                    verdict(test.p_value)
-                ),
-            ),
-            None => (
-                Json::Null,
-                "Goodness of fit is not tested: it needs eight values or more, none of them censored."
-                    .to_owned(),
-            ),
-        }
+            let Some(test) = test_normality(values) else {
+                let untested = "Goodness of fit is not tested: it needs eight values or more, none \
+                                of them censored.";
+                return (None, untested.to_owned());
+            };
+            let note = format!(
+                "Goodness of fit: Anderson and Darling's A² of {of} is {}, p = {}; largest \
+                 difference from the fitted distribution {}. {}",
+                cell(test.anderson_darling),
+                cell(test.p_value),
+                cell(test.largest_difference),
+                verdict(test.p_value)
+            );
+            let found = GoodnessOfFit {
+                test: "anderson_darling",
+                statistic: test.anderson_darling,
+                p_value: Some(test.p_value),
+                largest_difference: Some(test.largest_difference),
+                ..GoodnessOfFit::default()
+            };
+            (Some(found), note)
         };
-        let (json, note) = match &self.run.data {
+        match &self.run.data {
             Data::Stripes(stripes) => {
                 let test = test_counts(&self.run.fragility.curve(), stripes);
                 let p = test.p_value.map_or("no degrees of freedom".to_owned(), |p| {
@@ -305,20 +305,21 @@ impl FragilityReport<'_> {
                 } else {
                     ""
                 };
-                let json = Json::Object(vec![
-                    ("test", "deviance".into()),
-                    ("statistic", test.deviance.into()),
-                    ("pearson", test.pearson.into()),
-                    ("degrees_of_freedom", Json::Count(test.degrees as u64)),
-                    ("p_value", test.p_value.into()),
-                ]);
                 let verdict = test.p_value.map_or("", verdict);
                 let note = format!(
                     "Goodness of fit: deviance {}, {p}; Pearson's χ² {}. {verdict}{rough}",
                     cell(test.deviance),
                     cell(test.pearson)
                 );
-                (json, note)
+                let found = GoodnessOfFit {
+                    test: "deviance",
+                    statistic: test.deviance,
+                    pearson: Some(test.pearson),
+                    degrees_of_freedom: Some(test.degrees),
+                    p_value: test.p_value,
+                    ..GoodnessOfFit::default()
+                };
+                (Some(found), note.trim_end().to_owned())
             }
             Data::Capacities(capacities) => {
                 let all = capacities.iter().all(|capacity| capacity.reached);
@@ -334,8 +335,7 @@ impl FragilityReport<'_> {
                 let residuals: Vec<f64> = points.iter().map(residual).collect();
                 normality(if all { &residuals } else { &[] }, "the residuals of ln D")
             }
-        };
-        (json, vec![note.trim_end().to_owned()])
+        }
     }
 
     fn method(&self) -> Vec<String> {
@@ -365,79 +365,85 @@ impl FragilityReport<'_> {
         method
     }
 
-    fn json(&self) -> Vec<(&'static str, Json)> {
-        let curve = self.run.fragility.curve();
-        let pair = |ends: [Option<f64>; 2]| Json::List(ends.map(Json::from).to_vec());
-        let [of_median, of_dispersion] = self.run.fragility.standard_errors();
-        let (method, data) = match &self.run.data {
-            Data::Stripes(stripes) => {
-                let of = |s: &Stripe| {
-                    Json::Object(vec![
-                        ("level", s.level.into()),
-                        ("runs", Json::Count(s.runs)),
-                        ("exceeded", Json::Count(s.exceeded)),
-                    ])
-                };
-                ("stripes", ("stripes", Json::List(stripes.iter().map(of).collect())))
+    fn json(&self) -> impl Serialize {
+        let FragilityRun { data, why, averaged, measure, measure_unit, fragility, .. } = self.run;
+        let curve = fragility.curve();
+        let [se_ln_median, se_dispersion] = fragility.standard_errors();
+        let (mut stripes, mut capacities, mut cloud) = (None, None, None);
+        let method = match data {
+            Data::Stripes(all) => {
+                let all =
+                    each(all, |s| view! { level: s.level, runs: s.runs, exceeded: s.exceeded });
+                stripes = Some(view! { stripes: all });
+                "stripes"
             }
-            Data::Capacities(capacities) => {
-                let of = |c: &Capacity| {
-                    let reached = Json::from(c.reached);
-                    Json::Object(vec![("level", c.level.into()), ("reached", reached)])
-                };
-                ("capacities", ("capacities", Json::List(capacities.iter().map(of).collect())))
+            Data::Capacities(all) => {
+                let all = each(all, |c| view! { level: c.level, reached: c.reached });
+                capacities = Some(view! { capacities: all });
+                "capacities"
             }
             Data::Cloud(points) => {
-                let fit = self.run.fragility.fit();
-                let count =
-                    |k: Known| Json::Count(points.iter().filter(|p| p.known == k).count() as u64);
-                let cloud = Json::Object(vec![
-                    ("intercept", fit.intercept().into()),
-                    ("slope", fit.slope().into()),
-                    ("sigma", fit.sigma().into()),
-                    ("known", count(Known::Exactly)),
-                    ("below_floor", count(Known::AtMost)),
-                    ("above_cap", count(Known::AtLeast)),
-                ]);
-                ("cloud", ("cloud", cloud))
+                let fit = fragility.fit();
+                let count = |known: Known| points.iter().filter(|p| p.known == known).count();
+                let found = view! {
+                    intercept: fit.intercept(),
+                    slope: fit.slope(),
+                    sigma: fit.sigma(),
+                    known: count(Known::Exactly),
+                    below_floor: count(Known::AtMost),
+                    above_cap: count(Known::AtLeast),
+                };
+                cloud = Some(view! { cloud: found });
+                "cloud"
             }
         };
-        let (certainty, records) = match self.run.fragility.certainty() {
+        let (certainty, records) = match fragility.certainty() {
             Certainty::Independent => ("independent", None),
             Certainty::Clustered { records } => ("clustered", Some(*records)),
             Certainty::Bootstrap { records, .. } => ("bootstrap", Some(*records)),
         };
-        let row =
-            |[x, p, low, high]: [f64; 4]| Json::List([x, p, low, high].map(Json::from).to_vec());
-        vec![
-            ("name", self.name.into()),
-            ("method", method.into()),
-            ("why", self.run.why.as_str().into()),
-            ("designs", Json::Count(self.run.averaged.designs as u64)),
-            (
-                "averaged_over",
-                Json::List(self.run.averaged.paths.iter().map(|p| p.as_str().into()).collect()),
-            ),
-            ("measure", self.run.measure.as_str().into()),
-            ("measure_unit", self.run.measure_unit.as_str().into()),
-            ("demand", self.demand.into()),
-            ("limit", self.limit.into()),
-            ("median", curve.median.into()),
-            ("dispersion", curve.dispersion.into()),
-            ("se_ln_median", of_median.into()),
-            ("se_dispersion", of_dispersion.into()),
-            ("certainty", certainty.into()),
-            ("clustered_by", records.map_or(Json::Null, |_| self.run.clustered_by.into())),
-            ("records", records.map_or(Json::Null, |records| Json::Count(records as u64))),
-            ("confidence", self.confidence.into()),
-            ("median_interval", pair(self.run.fragility.median_interval(self.confidence))),
-            ("dispersion_interval", pair(self.run.fragility.dispersion_interval(self.confidence))),
-            ("log_likelihood", self.run.fragility.fit().log_likelihood().into()),
-            ("goodness_of_fit", self.goodness().0),
-            data,
-            ("curve", Json::List(self.curve().into_iter().map(row).collect())),
-        ]
+        view! {
+            name: self.name,
+            method,
+            why,
+            designs: averaged.designs,
+            averaged_over: &averaged.paths,
+            measure,
+            measure_unit,
+            demand: self.demand,
+            limit: self.limit,
+            median: curve.median,
+            dispersion: curve.dispersion,
+            se_ln_median,
+            se_dispersion,
+            certainty,
+            clustered_by: records.map(|_| self.run.clustered_by),
+            records,
+            confidence: self.confidence,
+            median_interval: fragility.median_interval(self.confidence),
+            dispersion_interval: fragility.dispersion_interval(self.confidence),
+            log_likelihood: fragility.fit().log_likelihood(),
+            goodness_of_fit: self.goodness().0,
+            #[serde(flatten)] stripes,
+            #[serde(flatten)] capacities,
+            #[serde(flatten)] cloud,
+            curve: self.curve(),
+        }
     }
+}
+
+/// A test of the fitted distribution; which figures it has depends on the test.
+#[derive(Default, Serialize)]
+struct GoodnessOfFit {
+    test: &'static str,
+    statistic: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pearson: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    degrees_of_freedom: Option<usize>,
+    p_value: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    largest_difference: Option<f64>,
 }
 
 fn verdict(p: f64) -> &'static str {

@@ -3,6 +3,7 @@
 mod code;
 mod figures;
 
+use serde::Serialize;
 use slipstick::assessment::FailedRun;
 use slipstick::assessment::code::{Plan, PropertyFactors};
 use slipstick::assessment::histories::{Histories, ModelHistories, OnRecord, RECORDS_OF_A_MEAN};
@@ -12,13 +13,14 @@ use slipstick::input::Bound;
 use slipstick::notice::{Notice, NoticeKind};
 use slipstick::response::{DemandColumn, DemandOf};
 use slipstick::study::USUAL_FACTORS;
-use slipstick::table::{self, Cells, Column};
+use slipstick::table::{self, Column};
 
 use super::pairs;
 use super::sheet::{Sheet, cell, failed, record_table};
 use crate::display::{DisplayUnits, Quantity, Unit};
-use crate::json::Json;
+use crate::json::{cell_values, each, pretty};
 use crate::number::compact;
+use crate::view;
 
 /// What the histories of a suite are told from.
 #[derive(Clone, Debug)]
@@ -99,7 +101,7 @@ impl HistoriesReport<'_> {
             notes: self.notes(),
             figures: self.figures(),
             method: self.method(),
-            json: self.json(),
+            json: pretty(&self.json()),
             ..Sheet::default()
         }
     }
@@ -471,35 +473,34 @@ impl HistoriesReport<'_> {
         all
     }
 
-    fn json(&self) -> Vec<(&'static str, Json)> {
-        let names = self.histories.models.iter().map(|model| model.name.as_str().into());
-        let of_bounds = self.histories.models.iter().flat_map(|model| {
+    fn json(&self) -> impl Serialize {
+        let models = &self.histories.models;
+        let of_bounds = models.iter().flat_map(|model| {
             let each = model.bounds.iter().zip(&model.lateral);
             each.filter_map(|(bound, found)| Some((&model.name, bound, found.as_ref()?)))
         });
         let total = self.plan.map_or(LEAST_TOTAL, |plan| plan.total_over_displacement());
-        let lateral = of_bounds.map(|(model, bound, found)| {
-            Json::Object(vec![
-                ("model", model.as_str().into()),
-                ("friction", bound.name.into()),
-                ("displacement_m", found.displacement_m.into()),
-                ("total_displacement_m", (total * found.displacement_m).into()),
-                ("stiffness_n_per_m", found.stiffness_n_per_m.into()),
-                ("damping_ratio", found.damping_ratio.into()),
-                ("damping_factor", found.damping_factor.into()),
-                ("period_s", found.period_s.into()),
-                ("passes", found.passes.map_or(Json::Null, |(what, _)| what.into())),
-                ("passes_m", found.passes.map(|(_, reach_m)| reach_m).into()),
-            ])
-        });
-        vec![
-            ("models", Json::List(names.collect())),
-            ("scaled", self.scaled.trim().into()),
-            ("hazard", self.hazard.map_or(Json::Null, Json::from)),
-            ("runs", columns(&self.histories.runs)),
-            ("governing", columns(&self.histories.governing)),
-            ("lateral_force", Json::List(lateral.collect())),
-        ]
+        view! {
+            models: each(models, |model| &model.name),
+            scaled: self.scaled.trim(),
+            hazard: self.hazard,
+            runs: columns(&self.histories.runs),
+            governing: columns(&self.histories.governing),
+            lateral_force: each(of_bounds, |(model, bound, found)| {
+                view! {
+                    model,
+                    friction: bound.name,
+                    displacement_m: found.displacement_m,
+                    total_displacement_m: total * found.displacement_m,
+                    stiffness_n_per_m: found.stiffness_n_per_m,
+                    damping_ratio: found.damping_ratio,
+                    damping_factor: found.damping_factor,
+                    period_s: found.period_s,
+                    passes: found.passes.map(|(what, _)| what),
+                    passes_m: found.passes.map(|(_, reach_m)| reach_m),
+                }
+            }),
+        }
     }
 }
 
@@ -525,25 +526,8 @@ fn method() -> Vec<String> {
 }
 
 /// A table as its columns: name, unit, values.
-fn columns(table: &table::Table) -> Json {
-    let values = |cells: &Cells| -> Vec<Json> {
-        match cells {
-            Cells::Texts(texts) => texts.iter().map(|text| text.as_str().into()).collect(),
-            Cells::Flags(flags) => {
-                flags.iter().map(|flag| flag.map_or(Json::Null, Json::Bool)).collect()
-            }
-            Cells::Counts(counts) => {
-                counts.iter().map(|count| Json::from(count.map(|n| n as f64))).collect()
-            }
-            Cells::Numbers(numbers) => numbers.iter().map(|number| Json::from(*number)).collect(),
-        }
-    };
-    let column = |column: &Column| {
-        Json::Object(vec![
-            ("name", column.name.as_str().into()),
-            ("unit", column.unit.as_str().into()),
-            ("values", Json::List(values(&column.cells))),
-        ])
-    };
-    Json::List(table.columns.iter().map(column).collect())
+fn columns(table: &table::Table) -> impl Serialize {
+    each(&table.columns, |Column { name, unit, cells }| {
+        view! { name, unit, values: cell_values(cells) }
+    })
 }

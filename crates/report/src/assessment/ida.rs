@@ -2,6 +2,7 @@
 
 mod family;
 
+use serde::Serialize;
 use slipstick::assessment::FailedRun;
 use slipstick::assessment::SHARES;
 use slipstick::assessment::fragility::Fragility;
@@ -17,8 +18,9 @@ use super::lines::{FRACTILES, RECORD, clipped, line, panel, share_names, single}
 use super::sheet::{Sheet, cell, counted, counted_as, failed};
 use crate::display::{DisplayUnits, Unit};
 use crate::figures::Drawn;
-use crate::json::Json;
+use crate::json::{each, pretty};
 use crate::plot::{Axis, Series, Style};
+use crate::view;
 
 /// What an incremental dynamic analysis is told from.
 #[derive(Clone, Debug)]
@@ -139,7 +141,7 @@ impl IdaReport<'_> {
             notes: self.notes(),
             figures: vec![self.figure()],
             method: self.method(),
-            json: self.json(),
+            json: pretty(&self.json()),
             ..Sheet::default()
         }
     }
@@ -380,74 +382,46 @@ impl IdaReport<'_> {
         method
     }
 
-    fn json(&self) -> Vec<(&'static str, Json)> {
-        let numbers = |values: &[f64]| Json::List(values.iter().map(|v| Json::from(*v)).collect());
+    fn json(&self) -> impl Serialize {
         let crossings = self.crossings();
-        let of = |((record, curve), crossing): ((&String, &Curve), &Crossing)| {
-            let mut members = vec![
-                ("record", record.as_str().into()),
-                ("levels", numbers(&curve.levels)),
-                ("demands", numbers(&curve.demands.iter().map(|d| d.value()).collect::<Vec<_>>())),
-            ];
-            if self.limit.is_some() {
-                members.extend([
-                    ("capacity", crossing.level.into()),
-                    ("reached", crossing.reached.into()),
-                    ("between", numbers(&crossing.between)),
-                    ("returns_at", crossing.returns.into()),
-                ]);
-            }
-            Json::Object(members)
-        };
-        let records =
-            self.records.iter().zip(self.curves).zip(&crossings).map(of).collect::<Vec<_>>();
-        let table = |rows: Vec<(f64, [f64; 3])>, first: &'static str| {
-            let of = |(value, fractiles): &(f64, [f64; 3])| {
-                Json::Object(vec![
-                    (first, (*value).into()),
-                    ("p16", fractiles[0].into()),
-                    ("p50", fractiles[1].into()),
-                    ("p84", fractiles[2].into()),
-                ])
-            };
-            Json::List(rows.iter().map(of).collect())
-        };
-        let capacity = self.limit.map_or(Json::Null, |limit| {
-            let [low, middle, high] = level_fractiles(self.curves, limit);
-            Json::Object(vec![("p16", low.into()), ("p50", middle.into()), ("p84", high.into())])
-        });
-        let fit = match self.fit {
-            Some(Ok(fragility)) => Json::Object(vec![
-                ("median", fragility.curve().median.into()),
-                ("dispersion", fragility.curve().dispersion.into()),
-            ]),
-            _ => Json::Null,
-        };
-        vec![
-            ("model", self.name.into()),
-            ("measure", self.measure.into()),
-            ("measure_unit", self.measure_unit.into()),
-            ("demand", self.demand.into()),
-            ("limit", self.limit.into()),
-            ("runs", Json::Count(self.runs() as u64)),
-            ("failed", Json::Count(self.failures.len() as u64)),
-            ("used_up_travel", Json::Count(travel_used_up(self.failures) as u64)),
-            ("shares", numbers(&SHARES)),
-            ("capacity", capacity),
-            ("lognormal", fit),
-            ("demand_by_level", table(self.demands_by_level(), "level")),
-            ("level_by_demand", table(self.levels_by_demand(), "demand")),
-            (
-                "averaged",
-                Json::Object(vec![
-                    (
-                        "paths",
-                        Json::List(self.averaged.paths.iter().map(|p| p.as_str().into()).collect()),
-                    ),
-                    ("designs", Json::Count(self.averaged.designs as u64)),
-                ]),
-            ),
-            ("records", Json::List(records)),
-        ]
+        let fractiles = |[p16, p50, p84]: [f64; 3]| view! { p16, p50, p84 };
+        let fit = self.fit.and_then(|fit| fit.as_ref().ok()).map(Fragility::curve);
+        let records = self.records.iter().zip(self.curves).zip(&crossings);
+        view! {
+            model: self.name,
+            measure: self.measure,
+            measure_unit: self.measure_unit,
+            demand: self.demand,
+            limit: self.limit,
+            runs: self.runs(),
+            failed: self.failures.len(),
+            used_up_travel: travel_used_up(self.failures),
+            shares: SHARES,
+            capacity: self.limit.map(|limit| fractiles(level_fractiles(self.curves, limit))),
+            lognormal: fit.map(|fit| view! { median: fit.median, dispersion: fit.dispersion }),
+            demand_by_level: each(self.demands_by_level(), |(level, demands)| {
+                view! { level, #[serde(flatten)] demands: fractiles(demands) }
+            }),
+            level_by_demand: each(self.levels_by_demand(), |(demand, levels)| {
+                view! { demand, #[serde(flatten)] levels: fractiles(levels) }
+            }),
+            averaged: view! { paths: &self.averaged.paths, designs: self.averaged.designs },
+            records: each(records, |((record, curve), crossing)| {
+                let of_limit = self.limit.map(|_| {
+                    view! {
+                        capacity: crossing.level,
+                        reached: crossing.reached,
+                        between: crossing.between,
+                        returns_at: crossing.returns,
+                    }
+                });
+                view! {
+                    record,
+                    levels: &curve.levels,
+                    demands: each(&curve.demands, |demand| demand.value()),
+                    #[serde(flatten)] of_limit,
+                }
+            }),
+        }
     }
 }

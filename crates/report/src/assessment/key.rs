@@ -5,6 +5,7 @@ use slipstick::response::DemandColumn;
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 
 use crate::display::{DisplayUnits, Quantity, Unit};
+use crate::json::Scalar;
 
 /// What a key measures.
 #[must_use]
@@ -33,6 +34,11 @@ pub fn of_measure(si_unit: &str, display: DisplayUnits, largest: f64) -> Unit {
         "s" => Unit { in_si: 1.0, symbol: "s" },
         _ => Unit { in_si: 1.0, symbol: "" },
     }
+}
+
+/// The value by which a group was taken apart: a number, else its text.
+pub(super) fn group_value(value: f64, text: &str) -> Scalar<'_> {
+    if value.is_nan() { Scalar::Text(text) } else { Scalar::Number(Some(value)) }
 }
 
 #[cfg(test)]

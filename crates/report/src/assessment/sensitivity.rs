@@ -1,6 +1,7 @@
 //! Derivatives of demands: which key changes what, and by how much.
 
-use slipstick::assessment::derivative::{Derivative, DerivativeRun, Key, OfRecord};
+use serde::Serialize;
+use slipstick::assessment::derivative::{Derivative, DerivativeRun, Key};
 use slipstick::notice::{Notice, NoticeKind};
 use slipstick::response::DemandColumn;
 
@@ -9,9 +10,10 @@ use super::lines::{line, panel};
 use super::sheet::{Sheet, cell, failed};
 use crate::display::DisplayUnits;
 use crate::figures::Drawn;
-use crate::json::Json;
+use crate::json::{each, pretty};
 use crate::number::{compact, significant};
 use crate::plot::{Axis, Figure, Layout, Series, Shape, Style};
+use crate::view;
 
 /// Demands that are drawn and told first, where they are among those asked for.
 const FIRST: [&str; 3] =
@@ -89,7 +91,7 @@ impl SensitivityReport<'_> {
                  step the derivative is marked."
                     .to_owned(),
             ],
-            json: self.json(),
+            json: pretty(&self.json()),
             ..Sheet::default()
         }
     }
@@ -246,46 +248,36 @@ impl SensitivityReport<'_> {
         Some(Drawn::new(figure, caption))
     }
 
-    fn json(&self) -> Vec<(&'static str, Json)> {
+    fn json(&self) -> impl Serialize {
         let run = self.run;
-        let key = |key: &Key| {
-            Json::Object(vec![
-                ("path", key.path.as_str().into()),
-                ("unit", key.unit.as_str().into()),
-                ("value", key.value.into()),
-            ])
-        };
-        let record = |of: &OfRecord| {
-            let margin = of.closest_call.map(|call| call.margin);
-            Json::Object(vec![
-                ("name", of.name.as_str().into()),
-                ("scale", of.scale.into()),
-                ("holds", of.holds.map_or(Json::Null, Json::Bool)),
-                ("closest_call", margin.into()),
-                ("analyses", Json::Count(of.analyses)),
-            ])
-        };
-        let one = |d: &Derivative| {
-            Json::Object(vec![
-                ("record", run.records[d.record].name.as_str().into()),
-                ("path", run.keys[d.key].path.as_str().into()),
-                ("demand", run.demands[d.demand].name().as_str().into()),
-                ("value", d.value.into()),
-                ("derivative", d.derivative.into()),
-                ("error", d.error.into()),
-                ("relative", d.relative(&run.keys[d.key]).into()),
-                ("step", d.step.into()),
-                ("events_change", Json::Bool(d.events_change)),
-            ])
-        };
-        vec![
-            ("model", self.name.into()),
-            ("keys", Json::List(run.keys.iter().map(key).collect())),
-            ("records", Json::List(run.records.iter().map(record).collect())),
-            ("runs", Json::Count(run.runs)),
-            ("failed", Json::Count(run.failures.len() as u64)),
-            ("derivatives", Json::List(run.derivatives.iter().map(one).collect())),
-        ]
+        view! {
+            model: self.name,
+            keys: each(&run.keys, |Key { path, unit, value, .. }| view! { path, unit, value }),
+            records: each(&run.records, |of| {
+                view! {
+                    name: &of.name,
+                    scale: of.scale,
+                    holds: of.holds,
+                    closest_call: of.closest_call.map(|call| call.margin),
+                    analyses: of.analyses,
+                }
+            }),
+            runs: run.runs,
+            failed: run.failures.len(),
+            derivatives: each(&run.derivatives, |d| {
+                view! {
+                    record: &run.records[d.record].name,
+                    path: &run.keys[d.key].path,
+                    demand: run.demands[d.demand].name(),
+                    value: d.value,
+                    derivative: d.derivative,
+                    error: d.error,
+                    relative: d.relative(&run.keys[d.key]),
+                    step: d.step,
+                    events_change: d.events_change,
+                }
+            }),
+        }
     }
 }
 

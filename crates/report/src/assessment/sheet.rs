@@ -12,12 +12,13 @@ use crate::VERSION;
 use crate::display::DisplayUnits;
 use crate::figures::Drawn;
 use crate::html::{Frame, document, figure_list, inputs, name_table, number_table, warning_list};
-use crate::json::Json;
+use crate::json::{joined, pretty};
 use crate::laboratory::text::{aligned, field};
 use crate::markup::Markup;
 use crate::markup::shortened;
 use crate::report::Provenance;
 use crate::summary::keys::{certified_keys, listed, suite};
+use crate::view;
 
 /// A heading and a table: the first row are heads, the first column names.
 pub type Table = (String, Vec<Vec<String>>);
@@ -67,8 +68,8 @@ pub struct Sheet {
     pub certified: Option<Certified>,
     /// Whether every run has an answer whose certificate holds, and what was looked for is found.
     pub complete: bool,
-    /// What `--json` prints between the version and the warnings.
-    pub json: Vec<(&'static str, Json)>,
+    /// The object whose members `--json` prints between the version and the warnings.
+    pub json: String,
 }
 
 impl Sheet {
@@ -131,18 +132,17 @@ impl Sheet {
     /// The object that `--json` prints, indented.
     #[must_use]
     pub fn to_json(&self) -> String {
-        let mut keys = vec![("slipstick", VERSION.into())];
-        keys.extend(self.model_hash.iter().map(|hash| ("model_hash", hash.as_str().into())));
-        keys.extend(self.json.iter().cloned());
-        if let Some(certified) = &self.certified {
-            keys.push(("certified", certified_keys(certified)));
-        }
-        if !self.suite.is_empty() {
-            keys.push(("suite", suite(&self.suite)));
-        }
-        keys.push(("warnings", listed(&self.warnings, false)));
-        keys.push(("notes", listed(&self.warnings, true)));
-        Json::Object(keys).to_pretty()
+        let hash = self.model_hash.as_ref().map(|model_hash| view! { model_hash });
+        let certified = self.certified.as_ref().map(certified_keys);
+        let suite = (!self.suite.is_empty()).then(|| suite(&self.suite));
+        let head = view! { slipstick: VERSION, #[serde(flatten)] hash };
+        let tail = view! {
+            #[serde(flatten)] certified: certified.map(|certified| view! { certified }),
+            #[serde(flatten)] suite: suite.map(|suite| view! { suite }),
+            warnings: listed(&self.warnings, false),
+            notes: listed(&self.warnings, true),
+        };
+        joined(&[&pretty(&head), &self.json, &pretty(&tail)])
     }
 
     /// What was noticed of each record, where several kinds or records would hide it above.

@@ -1,5 +1,6 @@
 //! Sliding spectra and frequency response curves.
 
+use serde::Serialize;
 use slipstick::assessment::spectrum::{CurveOf, DemandCurves, SpectrumRun};
 use slipstick::notice::Notice;
 use slipstick::study::travel_used_up;
@@ -8,9 +9,10 @@ use super::key::{quantity, title};
 use super::lines::{BAND, FRACTILES, GROUPS, RECORD, band, line, panel, share_names, stacked};
 use super::sheet::{Sheet, cell, counted_as, failed};
 use crate::display::{DisplayUnits, Unit};
-use crate::json::Json;
+use crate::json::{each, pretty};
 use crate::number::compact;
 use crate::plot::{Axis, Limit, Panel, Series, Style};
+use crate::view;
 
 /// What a spectrum is told from.
 #[derive(Clone, Debug)]
@@ -86,7 +88,7 @@ impl<'s> SpectrumReport<'s> {
             notes: self.notes(),
             figures: self.run.curves.iter().map(|curves| self.figure(curves)).collect(),
             method: self.method(),
-            json: self.json(),
+            json: pretty(&self.json()),
             ..Sheet::default()
         }
     }
@@ -328,46 +330,36 @@ impl<'s> SpectrumReport<'s> {
         method
     }
 
-    fn json(&self) -> Vec<(&'static str, Json)> {
-        let numbers = |values: &[f64]| Json::List(values.iter().map(|v| Json::from(*v)).collect());
-        let texts =
-            |values: &[String]| Json::List(values.iter().map(|v| v.as_str().into()).collect());
+    fn json(&self) -> impl Serialize {
         let groups = self.groups();
-        let mut curves = Vec::new();
-        for of_demand in &self.run.curves {
-            for (group, fractiles) in groups.iter().zip(&of_demand.fractiles) {
-                let pick = |i: usize| numbers(&fractiles.iter().map(|f| f[i]).collect::<Vec<_>>());
-                curves.push(Json::Object(vec![
-                    ("demand", of_demand.of.name().as_str().into()),
-                    ("group", group.as_str().into()),
-                    ("p16", pick(0)),
-                    ("p50", pick(1)),
-                    ("p84", pick(2)),
-                ]));
-            }
+        let curves = self.run.curves.iter().flat_map(|curves| {
+            let demand = curves.of.name();
+            each(groups.iter().zip(&curves.fractiles), |(group, fractiles)| {
+                let pick = |i: usize| each(fractiles, |f| f[i]);
+                view! {
+                    demand: demand.clone(),
+                    group: group.clone(),
+                    p16: pick(0),
+                    p50: pick(1),
+                    p84: pick(2),
+                }
+            })
+        });
+        view! {
+            model: self.name,
+            over: &self.run.over,
+            unit: &self.run.unit,
+            values: &self.run.values,
+            groups: groups.clone(),
+            records: self.records,
+            runs: self.run.runs,
+            failed: self.run.failures.len(),
+            used_up_travel: travel_used_up(&self.run.failures),
+            curves: curves.collect::<Vec<_>>(),
+            windows: each(groups.iter().zip(&self.run.windows), |(group, above_1)| {
+                view! { demand: self.amplification(), group: group.clone(), above_1 }
+            }),
         }
-        let amplification = self.amplification();
-        let window = |(group, windows): (&String, &Vec<[f64; 2]>)| {
-            Json::Object(vec![
-                ("demand", amplification.as_str().into()),
-                ("group", group.as_str().into()),
-                ("above_1", Json::List(windows.iter().map(|w| numbers(w)).collect())),
-            ])
-        };
-        let windows = Json::List(groups.iter().zip(&self.run.windows).map(window).collect());
-        vec![
-            ("model", self.name.into()),
-            ("over", self.run.over.as_str().into()),
-            ("unit", self.run.unit.as_str().into()),
-            ("values", numbers(&self.run.values)),
-            ("groups", texts(&groups)),
-            ("records", texts(self.records)),
-            ("runs", Json::Count(self.run.runs as u64)),
-            ("failed", Json::Count(self.run.failures.len() as u64)),
-            ("used_up_travel", Json::Count(travel_used_up(&self.run.failures) as u64)),
-            ("curves", Json::List(curves)),
-            ("windows", windows),
-        ]
     }
 }
 

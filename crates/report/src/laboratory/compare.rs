@@ -1,5 +1,6 @@
 //! A prediction beside a measurement.
 
+use serde::Serialize;
 use slipstick::input::Channel;
 use slipstick::laboratory::compare::{Compared, Comparison, Metrics, Within};
 use slipstick::model::Model;
@@ -12,10 +13,11 @@ use crate::assessment::sheet::{Sheet, Table};
 use crate::describe::model_rows;
 use crate::display::{DisplayUnits, Quantity, Unit};
 use crate::figures::Drawn;
-use crate::json::Json;
+use crate::json::{Members, each, pretty};
 use crate::number::{significant, typeset};
 use crate::plot::{Axis, Figure, Layout, Panel, Style};
 use crate::summary::method_name;
+use crate::view;
 
 /// The table's own acceleration: there to be seen, not to hide the others.
 const TABLE: Style = Style { colour: "#5f7358", width: 0.8, dashes: "" };
@@ -59,6 +61,32 @@ pub(super) fn title(channel: Channel) -> String {
     letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
 
+/// A figure of agreement: its key in JSON, its name in tables (empty where it has no row), whether it has the unit
+/// of the quantity, and its value.
+type Agreement = (&'static str, &'static str, bool, fn(&Metrics) -> Option<f64>);
+
+const AGREEMENT: [Agreement; 17] = [
+    ("measured_peak", "Measured peak", true, |m| Some(m.measured_peak)),
+    ("measured_peak_time_s", "", false, |m| Some(m.measured_peak_time_s)),
+    ("predicted_peak", "Predicted peak", true, |m| Some(m.predicted_peak)),
+    ("predicted_peak_time_s", "", false, |m| Some(m.predicted_peak_time_s)),
+    ("peak_ratio", "Peak ratio (predicted/measured)", false, |m| m.peak_ratio),
+    ("measured_residual", "Measured at the end", true, |m| Some(m.measured_residual)),
+    ("predicted_residual", "Predicted at the end", true, |m| Some(m.predicted_residual)),
+    ("residual_error", "Error at the end", true, |m| Some(m.residual_error)),
+    ("measured_rms", "RMS, measured", true, |m| Some(m.measured_rms)),
+    ("rms_error", "RMS of the error", true, |m| Some(m.rms_error)),
+    ("normalised_rms_error", "  over the RMS measured", false, |m| m.normalised_rms_error),
+    ("correlation", "Correlation", false, |m| m.correlation),
+    ("russell_magnitude", "Russell: magnitude error", false, |m| Some(m.russell?.magnitude)),
+    ("russell_phase", "Russell: phase error", false, |m| Some(m.russell?.phase)),
+    ("russell_comprehensive", "Russell: comprehensive error", false, |m| {
+        Some(m.russell?.comprehensive)
+    }),
+    ("arrival_lag_s", "Arrival lag (s)", false, |m| m.arrival_lag_s),
+    ("correlation_at_lag", "", false, |m| m.lagged_correlation),
+];
+
 impl CompareReport<'_> {
     /// The value of a bounded figure.
     fn value(&self, within: &Within) -> Option<f64> {
@@ -93,35 +121,24 @@ impl CompareReport<'_> {
     /// Rows of names and values, a column a quantity.
     pub(super) fn rows(&self) -> Vec<Vec<String>> {
         let all = &self.comparison.compared;
-        let digits = |value: f64| significant(value, 4);
-        let ratio = |value: Option<f64>| value.map_or("n/a".to_owned(), digits);
-        let row = |name: &str, of: &dyn Fn(&Compared, &Metrics, Unit) -> String| {
-            let cells = all.iter().map(|c| of(c, &c.metrics, self.unit(c)));
+        let row = |name: &str, of: &dyn Fn(&Compared, Unit) -> String| {
+            let cells = all.iter().map(|c| of(c, self.unit(c)));
             core::iter::once(name.to_owned()).chain(cells).collect::<Vec<String>>()
         };
         let mut rows = vec![
-            row("", &|c, _, _| title(c.pair.channel)),
-            row("Unit", &|_, _, unit| unit.symbol.to_owned()),
-            row("Measured peak", &|_, m, unit| digits(unit.of(m.measured_peak))),
-            row("Predicted peak", &|_, m, unit| digits(unit.of(m.predicted_peak))),
-            row("Peak ratio (predicted/measured)", &|_, m, _| ratio(m.peak_ratio)),
-            row("Measured at the end", &|_, m, unit| digits(unit.of(m.measured_residual))),
-            row("Predicted at the end", &|_, m, unit| digits(unit.of(m.predicted_residual))),
-            row("Error at the end", &|_, m, unit| digits(unit.of(m.residual_error))),
-            row("RMS, measured", &|_, m, unit| digits(unit.of(m.measured_rms))),
-            row("RMS of the error", &|_, m, unit| digits(unit.of(m.rms_error))),
-            row("  over the RMS measured", &|_, m, _| ratio(m.normalised_rms_error)),
-            row("Correlation", &|_, m, _| ratio(m.correlation)),
-            row("Russell: magnitude error", &|_, m, _| ratio(m.russell.map(|r| r.magnitude))),
-            row("Russell: phase error", &|_, m, _| ratio(m.russell.map(|r| r.phase))),
-            row("Russell: comprehensive error", &|_, m, _| {
-                ratio(m.russell.map(|r| r.comprehensive))
-            }),
-            row("Arrival lag (s)", &|_, m, _| ratio(m.arrival_lag_s)),
+            row("", &|c, _| title(c.pair.channel)),
+            row("Unit", &|_, unit| unit.symbol.to_owned()),
         ];
+        let told = AGREEMENT.iter().filter(|(_, name, ..)| !name.is_empty());
+        rows.extend(told.map(|(_, name, has_unit, value)| {
+            row(name, &|c, unit| {
+                let shown = |value| if *has_unit { unit.of(value) } else { value };
+                value(&c.metrics).map_or("n/a".to_owned(), |value| significant(shown(value), 4))
+            })
+        }));
         if all.iter().any(|c| c.metrics.anderson.is_some()) {
-            rows.push(row("Anderson's scores over the whole band (0 to 10)", &|_, m, _| {
-                m.anderson.map_or(String::new(), |scores| scores.words())
+            rows.push(row("Anderson's scores over the whole band (0 to 10)", &|c, _| {
+                c.metrics.anderson.map_or(String::new(), |scores| scores.words())
             }));
         }
         rows
@@ -164,72 +181,53 @@ impl CompareReport<'_> {
                 ("Measured quantities".to_owned(), pairs(&mut origins)),
             ],
             complete: self.missed().is_empty(),
-            json: self.json(),
+            json: pretty(&self.json()),
             ..Sheet::default()
         }
     }
 
-    fn json(&self) -> Vec<(&'static str, Json)> {
+    fn json(&self) -> impl Serialize {
         let c = self.comparison;
-        let quantities = c.compared.iter().map(|compared| {
-            let (pair, m) = (&compared.pair, &compared.metrics);
-            let scores = m.anderson.map_or(Json::Null, |a| {
-                let scores = a.scores().map(|(name, score)| (name, Json::from(score)));
-                let mut scores = scores.to_vec();
-                scores.push(("mean", a.mean().into()));
-                Json::Object(scores)
-            });
-            Json::Object(vec![
-                ("quantity", pair.channel.name().as_str().into()),
-                ("unit", pair.channel.dimension().si_unit().into()),
-                ("origin", pair.origin.as_str().into()),
-                ("samples", (pair.times_s.len() as u64).into()),
-                ("samples_not_interpolated", (pair.at_samples as u64).into()),
-                ("from_s", pair.times_s.first().copied().into()),
-                ("to_s", pair.times_s.last().copied().into()),
-                ("measured_peak", m.measured_peak.into()),
-                ("measured_peak_time_s", m.measured_peak_time_s.into()),
-                ("predicted_peak", m.predicted_peak.into()),
-                ("predicted_peak_time_s", m.predicted_peak_time_s.into()),
-                ("peak_ratio", m.peak_ratio.into()),
-                ("measured_residual", m.measured_residual.into()),
-                ("predicted_residual", m.predicted_residual.into()),
-                ("residual_error", m.residual_error.into()),
-                ("measured_rms", m.measured_rms.into()),
-                ("rms_error", m.rms_error.into()),
-                ("normalised_rms_error", m.normalised_rms_error.into()),
-                ("correlation", m.correlation.into()),
-                ("russell_magnitude", m.russell.map(|r| r.magnitude).into()),
-                ("russell_phase", m.russell.map(|r| r.phase).into()),
-                ("russell_comprehensive", m.russell.map(|r| r.comprehensive).into()),
-                ("anderson_whole_band", scores),
-                ("arrival_lag_s", m.arrival_lag_s.into()),
-                ("correlation_at_lag", m.lagged_correlation.into()),
-            ])
-        });
-        let within = self.within.iter().map(|bound| {
-            let value = self.value(bound);
-            Json::Object(vec![
-                ("bound", bound.name().as_str().into()),
-                ("least", bound.least.into()),
-                ("most", bound.most.into()),
-                ("value", value.into()),
-                ("holds", bound.holds(value).into()),
-            ])
-        });
-        let figures = c.motion.figures();
-        vec![
-            ("model", self.name.into()),
-            ("method", method_name(self.method).into()),
-            ("measured", self.measured.into()),
-            ("alignment", c.alignment.as_str().into()),
-            ("starts_at_s", c.start_s.into()),
-            ("samples", (c.motion.len() as u64).into()),
-            ("dt_s", c.motion.dt_s().into()),
-            ("table_peak_acceleration_m_per_s2", figures.pga_m_per_s2.into()),
-            ("quantities", Json::List(quantities.collect())),
-            ("within", Json::List(within.collect())),
-        ]
+        view! {
+            model: self.name,
+            method: method_name(self.method),
+            measured: self.measured,
+            alignment: &c.alignment,
+            starts_at_s: c.start_s,
+            samples: c.motion.len(),
+            dt_s: c.motion.dt_s(),
+            table_peak_acceleration_m_per_s2: c.motion.figures().pga_m_per_s2,
+            quantities: each(&c.compared, |Compared { pair, metrics: m, .. }| {
+                let figures =
+                    |of: &[Agreement]| Members(each(of, |(key, .., value)| (*key, value(m))));
+                // Anderson's scores stand before the lag.
+                let (before, lag) = AGREEMENT.split_at(AGREEMENT.len() - 2);
+                view! {
+                    quantity: pair.channel.name(),
+                    unit: pair.channel.dimension().si_unit(),
+                    origin: &pair.origin,
+                    samples: pair.times_s.len(),
+                    samples_not_interpolated: pair.at_samples,
+                    from_s: pair.times_s.first(),
+                    to_s: pair.times_s.last(),
+                    #[serde(flatten)] figures: figures(before),
+                    anderson_whole_band: m.anderson.map(|a| {
+                        Members(a.scores().into_iter().chain([("mean", a.mean())]).collect())
+                    }),
+                    #[serde(flatten)] lag: figures(lag),
+                }
+            }),
+            within: each(self.within, |bound| {
+                let value = self.value(bound);
+                view! {
+                    bound: bound.name(),
+                    least: bound.least,
+                    most: bound.most,
+                    value,
+                    holds: bound.holds(value),
+                }
+            }),
+        }
     }
 
     /// How near the prediction is, quantity by quantity, and whether the bounds are kept.

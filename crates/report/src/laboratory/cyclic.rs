@@ -1,5 +1,6 @@
 //! Cyclic tests: loops of force over displacement with the fitted strokes.
 
+use serde::Serialize;
 use slipstick::laboratory::cyclic::{
     AtSpeed, CurvePoint, Cycle, CyclicEstimates, CyclicFit, RateFit, means,
 };
@@ -8,9 +9,10 @@ use super::identify::estimate_json;
 use crate::assessment::lines::{BAND, band, dots, laid, line, panel, single};
 use crate::display::{DisplayUnits, Quantity};
 use crate::figures::Drawn;
-use crate::json::Json;
+use crate::json::each;
 use crate::number::significant;
 use crate::plot::{Axis, Layout, Limit, Panel, Series, Style};
+use crate::view;
 
 /// One test.
 #[derive(Clone, Copy, Debug)]
@@ -138,60 +140,56 @@ fn row(label: String, cycle: &Cycle, over: f64, by_way: bool) -> Vec<String> {
     row
 }
 
-/// What only this job has in its JSON object.
+/// What only this job has in its JSON object; `slider_keys` are those for the model file.
 #[must_use]
-pub fn json(tests: &[Test], found: &CyclicEstimates) -> Vec<(&'static str, Json)> {
-    let tests_json = tests.iter().map(|test| {
-        let cycles = test.fit.cycles.iter().map(|cycle| {
-            Json::Object(vec![
-                ("from_s", cycle.span_s[0].into()),
-                ("to_s", cycle.span_s[1].into()),
-                ("frequency_hz", cycle.frequency_hz.into()),
-                ("stroke_m", cycle.stroke_m.into()),
-                ("peak_velocity_m_per_s", cycle.peak_velocity_m_per_s.into()),
-                ("kinetic_positive_n", cycle.kinetic_n[0].into()),
-                ("kinetic_negative_n", cycle.kinetic_n[1].into()),
-                ("static_positive_n", cycle.static_n[0].into()),
-                ("static_negative_n", cycle.static_n[1].into()),
-                ("spring_n_per_m", cycle.spring_n_per_m.into()),
-                ("damper_n_s_per_m", cycle.damper_n_s_per_m.into()),
-                ("residual_n", cycle.residual_n.into()),
-                ("by_speed", Json::List(cycle.by_speed.iter().map(at_speed_json).collect())),
-            ])
-        });
-        Json::Object(vec![
-            ("file", test.name.into()),
-            ("slack_m", test.fit.slack_m.into()),
-            ("strokes_left_out", (test.fit.strokes_left_out as u64).into()),
-            ("cycles", Json::List(cycles.collect())),
-        ])
-    });
-    let curve = found.rate.as_ref().map_or(Json::Null, |rate| {
-        let point = |point: &CurvePoint| {
-            Json::Object(vec![
-                ("speed_m_per_s", point.speed_m_per_s.into()),
-                ("kinetic_friction", point.friction.into()),
-                ("low", point.interval[0].into()),
-                ("high", point.interval[1].into()),
-            ])
-        };
-        Json::List(rate.curve.iter().map(point).collect())
-    });
-    let law = tests.first().map_or(Json::Null, |test| test.fit.law.name().into());
-    vec![
-        ("law", law),
-        ("friction_curve", curve),
-        ("frequency_dependence", found.per_hz.as_ref().map_or(Json::Null, estimate_json)),
-        ("tests", Json::List(tests_json.collect())),
-    ]
-}
-
-fn at_speed_json(at: &AtSpeed) -> Json {
-    Json::Object(vec![
-        ("speed_m_per_s", at.speed_m_per_s.into()),
-        ("kinetic_positive_n", at.kinetic_n[0].into()),
-        ("kinetic_negative_n", at.kinetic_n[1].into()),
-    ])
+pub fn json(
+    tests: &[Test],
+    found: &CyclicEstimates,
+    slider_keys: Option<String>,
+) -> impl Serialize {
+    let by_speed = |at: &AtSpeed| {
+        let [kinetic_positive_n, kinetic_negative_n] = at.kinetic_n;
+        view! { speed_m_per_s: at.speed_m_per_s, kinetic_positive_n, kinetic_negative_n }
+    };
+    let cycle = |cycle: &Cycle| {
+        let [from_s, to_s] = cycle.span_s;
+        let [kinetic_positive_n, kinetic_negative_n] = cycle.kinetic_n;
+        let [static_positive_n, static_negative_n] = cycle.static_n;
+        view! {
+            from_s,
+            to_s,
+            frequency_hz: cycle.frequency_hz,
+            stroke_m: cycle.stroke_m,
+            peak_velocity_m_per_s: cycle.peak_velocity_m_per_s,
+            kinetic_positive_n,
+            kinetic_negative_n,
+            static_positive_n,
+            static_negative_n,
+            spring_n_per_m: cycle.spring_n_per_m,
+            damper_n_s_per_m: cycle.damper_n_s_per_m,
+            residual_n: cycle.residual_n,
+            by_speed: each(&cycle.by_speed, by_speed),
+        }
+    };
+    let point = |point: &CurvePoint| {
+        let [low, high] = point.interval;
+        let CurvePoint { speed_m_per_s, friction, .. } = *point;
+        view! { speed_m_per_s, kinetic_friction: friction, low, high }
+    };
+    view! {
+        law: tests.first().map(|test| test.fit.law.name()),
+        friction_curve: found.rate.as_ref().map(|rate| each(&rate.curve, point)),
+        frequency_dependence: found.per_hz.as_ref().map(estimate_json),
+        tests: each(tests, |Test { name, fit, .. }| {
+            view! {
+                file: *name,
+                slack_m: fit.slack_m,
+                strokes_left_out: fit.strokes_left_out,
+                cycles: each(&fit.cycles, cycle),
+            }
+        }),
+        slider_keys,
+    }
 }
 
 /// Kinetic friction over sliding speed: what every cycle tells, and the fitted curve with its interval.

@@ -1,5 +1,6 @@
 //! Free vibration: the measured history with the fitted oscillation.
 
+use serde::Serialize;
 use slipstick::input::Channel;
 use slipstick::laboratory::free_vibration::FreeVibration;
 
@@ -7,9 +8,9 @@ use super::compare::{quantity, title};
 use crate::assessment::lines::{over_x, panel, single};
 use crate::display::DisplayUnits;
 use crate::figures::Drawn;
-use crate::json::Json;
 use crate::number::significant;
 use crate::plot::{Axis, Style};
+use crate::view;
 
 /// What the intervals assume.
 pub const ASSUMPTION: &str = "95 % intervals by profile likelihood: one linear mode with viscous \
@@ -37,15 +38,15 @@ pub fn facts(
 
 /// What only this job has in its JSON object.
 #[must_use]
-pub fn json(channel: Channel, span_s: [f64; 2], fit: &FreeVibration) -> Vec<(&'static str, Json)> {
-    vec![
-        ("quantity", channel.name().as_str().into()),
-        ("from_s", span_s[0].into()),
-        ("to_s", span_s[1].into()),
-        ("cycles", fit.cycles.into()),
-        ("variance_explained", fit.explained.into()),
-        ("correlation_length_samples", fit.correlation_length.into()),
-    ]
+pub fn json(channel: Channel, [from_s, to_s]: [f64; 2], fit: &FreeVibration) -> impl Serialize {
+    view! {
+        quantity: channel.name(),
+        from_s,
+        to_s,
+        cycles: fit.cycles,
+        variance_explained: fit.explained,
+        correlation_length_samples: fit.correlation_length,
+    }
 }
 
 /// The overlay.

@@ -1,5 +1,6 @@
 //! Identified parameters: what the three jobs have in common.
 
+use serde::Serialize;
 use slipstick::laboratory::estimate::{Estimate, Outcome};
 use slipstick::laboratory::identify::{Fitted, Identified, cyclic_histories};
 use slipstick::laboratory::measured::Measured;
@@ -8,8 +9,9 @@ use super::{cyclic, free_vibration, shaking_table};
 use crate::assessment::sheet::{Sheet, Table};
 use crate::display::{DisplayUnits, Quantity};
 use crate::figures::Drawn;
-use crate::json::Json;
+use crate::json::{each, joined, pretty};
 use crate::number::{fixed, significant};
+use crate::view;
 
 /// What stands over the keys of a model.
 const FOR_MODEL: &str = "For the model file";
@@ -25,8 +27,8 @@ struct OfJob {
     tables: Vec<Table>,
     /// What the intervals assume.
     assumption: String,
-    /// Keys of the JSON object.
-    json: Vec<(&'static str, Json)>,
+    /// The object whose members come last in the JSON object.
+    json: String,
     /// The figures of the page.
     figures: Vec<Drawn>,
 }
@@ -76,13 +78,9 @@ pub fn sheet(measured: &[Measured], identified: &Identified, display: DisplayUni
         of_job(measured, &name, identified, display);
     let estimates = &identified.estimates;
     let parameters = ("Parameters".to_owned(), rows(estimates, display));
-    let mut keys = vec![
-        ("job", job.into()),
-        ("measured", name.as_str().into()),
-        ("confidence", 0.95.into()),
-        ("estimates", Json::List(estimates.iter().map(estimate_json).collect())),
-    ];
-    keys.extend(json);
+    let estimates_json = each(estimates, estimate_json);
+    let of_all = view! { job, measured: &name, confidence: 0.95, estimates: estimates_json };
+    let json = joined(&[&pretty(&of_all), &json]);
     let undetermined = estimates
         .iter()
         .filter_map(|e| Some(format!("{} cannot be determined: {}", e.path, e.why()?)));
@@ -100,7 +98,7 @@ pub fn sheet(measured: &[Measured], identified: &Identified, display: DisplayUni
         notes: undetermined.chain(facts).chain([assumption]).collect(),
         figures,
         complete: estimates.iter().all(|estimate| estimate.value().is_some()),
-        json: keys,
+        json,
         ..Sheet::default()
     }
 }
@@ -126,9 +124,6 @@ fn of_job(
                 let limit = identified.estimates.iter().find(|e| e.path.contains("static"));
                 cyclic::by_speed(&tests, rate, limit.and_then(Estimate::value), normal_n, display)
             });
-            let mut json = cyclic::json(&tests, together);
-            let keys = identified.slider_keys();
-            json.push(("slider_keys", keys.as_deref().map_or(Json::Null, Json::from)));
             if tests.len() > 1 {
                 let unit = if normal_n.is_some() { "" } else { " (N)" };
                 let rows = cyclic::by_test(&tests, normal_n);
@@ -136,7 +131,7 @@ fn of_job(
             }
             OfJob {
                 job: "cyclic",
-                json,
+                json: pretty(&cyclic::json(&tests, together, identified.slider_keys())),
                 facts: cyclic::facts(&tests, normal_n),
                 tables,
                 assumption: cyclic::assumption(together.rate.is_some()),
@@ -150,7 +145,7 @@ fn of_job(
                 tables: Vec::new(),
                 facts: free_vibration::facts(*channel, span_s, fit),
                 assumption: free_vibration::ASSUMPTION.to_owned(),
-                json: free_vibration::json(*channel, span_s, fit),
+                json: pretty(&free_vibration::json(*channel, span_s, fit)),
                 figures: free_vibration::figures(*channel, times_s, values, fit, display),
             }
         }
@@ -161,7 +156,7 @@ fn of_job(
                 facts: shaking_table::facts(fit, display),
                 tables: vec![("Agreement with the best values".to_owned(), rows)],
                 assumption: shaking_table::assumption(fit),
-                json: shaking_table::json(fit, parameters, *seed),
+                json: pretty(&shaking_table::json(fit, parameters, *seed)),
                 figures,
             }
         }
@@ -212,14 +207,14 @@ fn verdict(estimates: &[Estimate], display: DisplayUnits) -> Vec<String> {
 }
 
 /// An estimate as an object; numbers are null where the data do not tell it.
-pub(super) fn estimate_json(estimate: &Estimate) -> Json {
+pub(super) fn estimate_json(estimate: &Estimate) -> impl Serialize {
     let interval = estimate.interval();
-    Json::Object(vec![
-        ("parameter", estimate.path.as_str().into()),
-        ("unit", estimate.unit.into()),
-        ("value", estimate.value().into()),
-        ("low", interval.map(|[low, _]| low).into()),
-        ("high", interval.map(|[_, high]| high).into()),
-        ("cannot_tell", estimate.why().map_or(Json::Null, Json::from)),
-    ])
+    view! {
+        parameter: &estimate.path,
+        unit: estimate.unit,
+        value: estimate.value(),
+        low: interval.map(|[low, _]| low),
+        high: interval.map(|[_, high]| high),
+        cannot_tell: estimate.why(),
+    }
 }

@@ -1,5 +1,7 @@
 //! A fitted shaking-table record: the response with the best values beside what was measured.
 
+use serde::Serialize;
+use slipstick::input::Channel;
 use slipstick::laboratory::shaking_table::{Parameter, TableFit};
 use slipstick::response::Method;
 
@@ -7,8 +9,9 @@ use super::CompareReport;
 use super::compare::{quantity, title};
 use crate::display::DisplayUnits;
 use crate::figures::Drawn;
-use crate::json::Json;
+use crate::json::each;
 use crate::number::significant;
+use crate::view;
 
 /// What the intervals assume.
 #[must_use]
@@ -49,38 +52,30 @@ pub fn facts(fit: &TableFit, display: DisplayUnits) -> Vec<(&'static str, String
 
 /// What only this job has in its JSON object.
 #[must_use]
-pub fn json(fit: &TableFit, parameters: &[Parameter], seed: u64) -> Vec<(&'static str, Json)> {
-    let ranges = parameters.iter().zip(&fit.values).map(|(parameter, value)| {
-        Json::Object(vec![
-            ("parameter", parameter.path.as_str().into()),
-            ("least_tried", parameter.low.into()),
-            ("most_tried", parameter.high.into()),
-            ("best", (*value).into()),
-        ])
-    });
-    let noise = fit.noise.iter().map(|(channel, noise)| {
-        Json::Object(vec![
-            ("quantity", channel.name().as_str().into()),
-            ("unit", channel.dimension().si_unit().into()),
-            ("residual_rms", (*noise).into()),
-        ])
-    });
-    let offsets = fit.offsets.iter().map(|(channel, offset)| {
-        Json::Object(vec![
-            ("quantity", channel.name().as_str().into()),
-            ("unit", channel.dimension().si_unit().into()),
-            ("offset", (*offset).into()),
-        ])
-    });
-    vec![
-        ("seed", seed.into()),
-        ("ranges", Json::List(ranges.collect())),
-        ("residuals", Json::List(noise.collect())),
-        ("sensor_offsets", Json::List(offsets.collect())),
-        ("table_noise_m_per_s2", fit.table_noise_m_per_s2.into()),
-        ("correlation_length_samples", fit.correlation_length.into()),
-        ("sliding_evidence", fit.sliding_evidence.into()),
-    ]
+pub fn json(fit: &TableFit, parameters: &[Parameter], seed: u64) -> impl Serialize {
+    let of_channel = |channel: Channel| {
+        view! { quantity: channel.name(), unit: channel.dimension().si_unit() }
+    };
+    view! {
+        seed,
+        ranges: each(parameters.iter().zip(&fit.values), |(parameter, best)| {
+            view! {
+                parameter: &parameter.path,
+                least_tried: parameter.low,
+                most_tried: parameter.high,
+                best,
+            }
+        }),
+        residuals: each(&fit.noise, |(channel, residual_rms)| {
+            view! { #[serde(flatten)] channel: of_channel(*channel), residual_rms }
+        }),
+        sensor_offsets: each(&fit.offsets, |(channel, offset)| {
+            view! { #[serde(flatten)] channel: of_channel(*channel), offset }
+        }),
+        table_noise_m_per_s2: fit.table_noise_m_per_s2,
+        correlation_length_samples: fit.correlation_length,
+        sliding_evidence: fit.sliding_evidence,
+    }
 }
 
 /// The table of agreement and the overlays of a comparison with the best values.

@@ -51,6 +51,21 @@ pub fn aligned(rows: &[Vec<String>]) -> String {
     clean(&text)
 }
 
+/// Lines of cells, each column as wide as its widest; those that `is_left` names left, the others right.
+pub fn padded(rows: &[Vec<String>], is_left: impl Fn(usize) -> bool) -> String {
+    let width = |column: usize| {
+        rows.iter().filter_map(|row| row.get(column)).map(|c| c.chars().count()).max().unwrap_or(0)
+    };
+    let line = |row: &Vec<String>| {
+        let cells = row.iter().enumerate().map(|(i, cell)| {
+            let space = " ".repeat(width(i) - cell.chars().count());
+            if is_left(i) { format!("{cell}{space}") } else { format!("{space}{cell}") }
+        });
+        format!("{}\n", cells.collect::<Vec<_>>().join("  ").trim_end())
+    };
+    rows.iter().map(line).collect()
+}
+
 /// A table of many columns as several, each with the first column and at most `most` others.
 pub fn in_groups(rows: &[Vec<String>], most: usize) -> Vec<Vec<Vec<String>>> {
     let columns = rows.first().map_or(0, |row| row.len().saturating_sub(1));

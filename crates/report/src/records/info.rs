@@ -1,14 +1,17 @@
 //! What `slipstick record info` says of every channel.
 
+use serde::Serialize;
 use slipstick::error::visible;
-use slipstick::motion::intensity::IntensityMeasures;
+use slipstick::motion::intensity::{IntensityMeasures, Measure};
 use slipstick::notice::{Notice, NoticeKind};
 use slipstick::record::{Channel, Quantity, Record, Sampling};
 
 use crate::display::{DisplayUnits, Quantity as Shown};
-use crate::json::Json;
+use crate::json::{Members, each, pretty};
+use crate::laboratory::text::padded;
 use crate::number::significant;
 use crate::summary::keys::listed;
+use crate::view;
 
 /// One channel of one file.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,40 +99,38 @@ impl ChannelInfo {
         }
     }
 
-    fn json(&self) -> Json {
-        let text = |value: &Option<String>| value.as_deref().map_or(Json::Null, Json::from);
-        let mut keys = vec![
-            ("file", self.file.as_str().into()),
-            ("format", self.format.into()),
-            ("layout", self.layout.as_str().into()),
-            ("channel", self.channel.as_str().into()),
-            ("component", text(&self.component)),
-            ("azimuth_deg", self.azimuth_deg.into()),
-            ("units", self.units.as_str().into()),
-            ("quantity", self.quantity.name().into()),
-            ("npts", (self.npts as u64).into()),
-            ("dt_s", self.dt_s.into()),
-            ("duration_s", self.duration_s.into()),
-            ("high_pass_hz", self.high_pass_hz.into()),
-            ("low_pass_hz", self.low_pass_hz.into()),
-        ];
+    fn json(&self) -> impl Serialize {
         // The keys stand there for every channel; without an acceleration they are null.
         let columns = self.measures.map_or(IntensityMeasures::default(), |(set, _)| set).columns();
-        let value = |value: f64| self.measures.map_or(Json::Null, |_| value.into());
-        keys.extend(columns.into_iter().map(|(_, column, si)| (column, value(si))));
-        keys.push(("end_velocity_m_per_s", self.measures.map(|(_, end)| end).into()));
-        keys.push(("event", text(&self.event)));
-        keys.push(("station", text(&self.station)));
-        keys.push(("warnings", listed(&self.warnings, false)));
-        keys.push(("notes", listed(&self.warnings, true)));
-        Json::Object(keys)
+        let value = |si: f64| self.measures.map(|_| si);
+        view! {
+            file: &self.file,
+            format: self.format,
+            layout: &self.layout,
+            channel: &self.channel,
+            component: &self.component,
+            azimuth_deg: self.azimuth_deg,
+            units: &self.units,
+            quantity: self.quantity.name(),
+            npts: self.npts,
+            dt_s: self.dt_s,
+            duration_s: self.duration_s,
+            high_pass_hz: self.high_pass_hz,
+            low_pass_hz: self.low_pass_hz,
+            #[serde(flatten)] measures: Members(each(columns, |(_, name, si)| (name, value(si)))),
+            end_velocity_m_per_s: self.measures.map(|(_, end)| end),
+            event: &self.event,
+            station: &self.station,
+            warnings: listed(&self.warnings, false),
+            notes: listed(&self.warnings, true),
+        }
     }
 }
 
 /// One JSON array with an object a channel; numbers in SI.
 #[must_use]
 pub fn info_json(channels: &[ChannelInfo]) -> String {
-    Json::List(channels.iter().map(ChannelInfo::json).collect()).to_pretty()
+    pretty(&each(channels, ChannelInfo::json))
 }
 
 /// A table of channels below the name of their file, with what there is to know of them.
@@ -149,6 +150,28 @@ pub fn info_table(channels: &[ChannelInfo], display: DisplayUnits) -> String {
     out
 }
 
+/// Measures of the table, in the order of the set.
+const TABLED: [Measure; 6] = [
+    Measure::Pga,
+    Measure::Pgv,
+    Measure::Pgd,
+    Measure::Arias,
+    Measure::D5To95,
+    Measure::MeanPeriod,
+];
+
+/// The value of a measure, and its unit.
+pub(super) fn shown(measure: &Measure, si: f64, display: DisplayUnits) -> (String, &'static str) {
+    let quantity = match measure.unit() {
+        "m/s2" => Shown::Acceleration,
+        "m/s" => Shown::Velocity,
+        "m" => Shown::Length,
+        _ => Shown::Time,
+    };
+    let unit = display.unit(quantity, si.abs());
+    (significant(unit.of(si), 4), unit.symbol)
+}
+
 /// The channels of one file.
 fn file_table(out: &mut String, channels: &[ChannelInfo], display: DisplayUnits) {
     let first = &channels[0];
@@ -159,19 +182,10 @@ fn file_table(out: &mut String, channels: &[ChannelInfo], display: DisplayUnits)
             out.push_str(&format!("{name:<9}{}\n", visible(value)));
         }
     }
-    let mut rows = vec![
-        [
-            "Channel", "Units", "Values", "dt", "Duration", "PGA", "PGV", "PGD", "Arias", "D5-95",
-            "Tm",
-        ]
-        .map(str::to_owned)
-        .to_vec(),
-    ];
+    let heads = ["Channel", "Units", "Values", "dt", "Duration"].map(str::to_owned);
+    let heads = heads.into_iter().chain(TABLED.map(|measure| measure.to_string()));
+    let mut rows = vec![heads.collect()];
     for channel in channels {
-        let shown = |quantity, si: f64| {
-            let unit = display.unit(quantity, si.abs());
-            format!("{} {}", significant(unit.of(si), 4), unit.symbol)
-        };
         let dt = channel.dt_s.map_or("uneven".to_owned(), |dt_s| format!("{dt_s} s"));
         let mut row = vec![
             visible(&channel.channel),
@@ -181,33 +195,19 @@ fn file_table(out: &mut String, channels: &[ChannelInfo], display: DisplayUnits)
             format!("{} s", significant(channel.duration_s, 5)),
         ];
         match &channel.measures {
-            Some((set, _)) => row.extend([
-                shown(Shown::Acceleration, set.pga_m_per_s2),
-                shown(Shown::Velocity, set.pgv_m_per_s),
-                shown(Shown::Length, set.pgd_m),
-                shown(Shown::Velocity, set.arias_m_per_s),
-                format!("{} s", significant(set.d5_95_s, 4)),
-                format!("{} s", significant(set.tm_s, 4)),
-            ]),
+            Some((set, _)) => {
+                let columns = set.columns().into_iter();
+                let tabled = columns.filter(|(measure, ..)| TABLED.contains(measure));
+                row.extend(tabled.map(|(measure, _, si)| {
+                    let (value, unit) = shown(&measure, si, display);
+                    format!("{value} {unit}")
+                }));
+            }
             None => row.push(format!("({})", channel.quantity.name())),
         }
         rows.push(row);
     }
-    let width = |column: usize| {
-        rows.iter().filter_map(|row| row.get(column)).map(|c| c.chars().count()).max().unwrap_or(0)
-    };
-    for row in &rows {
-        let cells: Vec<String> = row
-            .iter()
-            .enumerate()
-            .map(|(i, cell)| {
-                let space = " ".repeat(width(i) - cell.chars().count());
-                if i < 2 { format!("{cell}{space}") } else { format!("{space}{cell}") }
-            })
-            .collect();
-        out.push_str(cells.join("  ").trim_end());
-        out.push('\n');
-    }
+    out.push_str(&padded(&rows, |column| column < 2));
     let mut told: Vec<&Notice> = Vec::new();
     for channel in channels {
         for warning in &channel.warnings {

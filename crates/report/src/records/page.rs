@@ -1,13 +1,13 @@
 //! A record on a page to read and print.
 
 use super::ChannelInfo;
+use super::info::shown;
 use crate::VERSION;
-use crate::display::{DisplayUnits, Quantity as Shown};
+use crate::display::DisplayUnits;
 use crate::figures::Drawn;
 use crate::html::{Frame, document, warning_list};
 use crate::markup::Markup;
-use crate::number::{printed, typeset};
-use slipstick::motion::intensity::Measure;
+use crate::number::typeset;
 
 /// One self-contained page: what the channel is, its measures, its figures.
 #[must_use]
@@ -59,10 +59,11 @@ fn channel(
         for pair in columns.chunks(2) {
             out.raw("<tr>");
             for (measure, _, si) in pair {
+                let (value, unit) = shown(measure, *si, display);
                 out.raw("<th scope=\"row\">")
                     .text(measure)
                     .raw("</th><td class=\"number\">")
-                    .text(typeset(&shown(measure, *si, display)))
+                    .text(format!("{} {unit}", typeset(&value)))
                     .raw("</td>");
             }
             out.raw("</tr>\n");
@@ -74,16 +75,4 @@ fn channel(
         out.text(&figure.caption).raw("</figcaption>\n</figure>\n");
     }
     out.raw("</section>\n");
-}
-
-/// A measure with its unit.
-fn shown(measure: &Measure, si: f64, display: DisplayUnits) -> String {
-    let quantity = match measure.unit() {
-        "m/s2" => Shown::Acceleration,
-        "m/s" => Shown::Velocity,
-        "m" => Shown::Length,
-        _ => Shown::Time,
-    };
-    let unit = display.unit(quantity, si.abs());
-    format!("{} {}", printed(unit.of(si), 4), unit.symbol)
 }

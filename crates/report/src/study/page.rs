@@ -1,19 +1,21 @@
 //! A study as a page: the answer, how demands grow with the level, the tables.
 
+use serde::Serialize;
 use slipstick::notice::{Notice, NoticeKind};
 use slipstick::response::DemandColumn;
 use slipstick::study::{Certified, LevelSummary, Study, StudySummary};
 
-use super::{level, level_number, level_unit, said, shown};
+use super::{level, level_number, level_unit, said};
 use crate::assessment::lines::{BAND, FRACTILES, GROUPS, band, line, panel, stacked};
 use crate::assessment::pairs;
-use crate::assessment::sheet::{Sheet, cell};
+use crate::assessment::sheet::{Sheet, Table, cell};
 use crate::display::{DisplayUnits, Unit};
 use crate::figures::Drawn;
-use crate::json::Json;
+use crate::json::pretty;
 use crate::markup::shortened;
 use crate::number::{compact, count};
 use crate::plot::{Axis, Panel, Series, Style};
+use crate::view;
 
 /// What the page of a study is told from.
 #[derive(Clone, Copy, Debug)]
@@ -60,7 +62,7 @@ impl StudyReport<'_> {
             figures: self.figures(),
             method: self.method(),
             complete: true,
-            json: self.json(),
+            json: pretty(&self.json()),
             ..Sheet::default()
         }
         .certified(Some(self.certified.clone()))
@@ -68,8 +70,7 @@ impl StudyReport<'_> {
 
     /// The rows of a demand that have values.
     fn rows(&self, demand: DemandColumn) -> Vec<&LevelSummary> {
-        let of = |row: &&LevelSummary| row.demand == demand && row.max_run.is_some();
-        self.summary.rows.iter().filter(of).collect()
+        super::rows(self.summary, demand)
     }
 
     fn unit(&self, demand: DemandColumn) -> Unit {
@@ -176,44 +177,9 @@ impl StudyReport<'_> {
         failed.into_iter().chain(missing).chain(warned).chain(noticed).collect()
     }
 
-    fn tables(&self) -> Vec<(String, Vec<Vec<String>>)> {
-        let bounded = self.study.has_bounds();
-        let measure = match &self.summary.measure {
-            Some((name, _)) => name.clone(),
-            None => "Scale".to_owned(),
-        };
-        let table = |demand: DemandColumn| {
-            let unit = self.unit(demand);
-            let number = |si: f64| match si.is_infinite() {
-                true => "beyond".to_owned(),
-                false => cell(unit.of(si)),
-            };
-            let heads = ["Runs", "16 %", "Median", "84 %", "Mean", "Largest", "Record", "Run"];
-            let heads = heads.map(str::to_owned);
-            let friction = bounded.then(|| "Friction".to_owned());
-            let mut rows: Vec<Vec<String>> =
-                vec![std::iter::once(measure.clone()).chain(friction).chain(heads).collect()];
-            for row in self.rows(demand) {
-                let [low, middle, high] = row.quantiles.map(number);
-                let friction = row.friction.map(str::to_owned);
-                let cells = [
-                    count(row.runs - row.failures + row.beyond),
-                    low,
-                    middle,
-                    high,
-                    number(row.mean),
-                    number(row.max),
-                    shortened(super::file_name(&row.max_record), 24),
-                    row.max_run.map_or_else(String::new, count),
-                ];
-                let first = std::iter::once(level(self.summary, row, self.display));
-                rows.push(first.chain(friction).chain(cells).collect());
-            }
-            (unit.label(&self.summary.names.title(&demand)), rows)
-        };
-        let demands = shown(self.summary).into_iter().filter(|d| !self.rows(*d).is_empty());
+    fn tables(&self) -> Vec<Table> {
         let matched = self.study.matched().map(|matched| pairs::table(self.pairs(), matched));
-        demands.map(table).chain(matched).collect()
+        super::tables(self.summary, self.display).into_iter().chain(matched).collect()
     }
 
     fn figures(&self) -> Vec<Drawn> {
@@ -367,14 +333,14 @@ impl StudyReport<'_> {
         method
     }
 
-    fn json(&self) -> Vec<(&'static str, Json)> {
+    fn json(&self) -> impl Serialize {
         let cases = self.study.cases();
-        vec![
-            ("name", self.summary.name.as_str().into()),
-            ("runs", self.study.runs().into()),
-            ("records", cases.records.into()),
-            ("levels", cases.levels.into()),
-            ("samples", cases.samples.into()),
-        ]
+        view! {
+            name: &self.summary.name,
+            runs: self.study.runs(),
+            records: cases.records,
+            levels: cases.levels,
+            samples: cases.samples,
+        }
     }
 }

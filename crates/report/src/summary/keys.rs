@@ -1,5 +1,6 @@
 //! The keys of the `--json` object, which are a promise to other programs.
 
+use serde::{Serialize, Serializer};
 use slipstick::assessment::single::FloorSpectra;
 use slipstick::assessment::suite::Recorded;
 use slipstick::motion::Figures;
@@ -12,192 +13,173 @@ use slipstick::input::Names;
 use slipstick::record::Origin;
 use slipstick::study::{Certified, Worst};
 
-use super::{Checks, Summary, method_name};
-use crate::json::Json;
+use super::{ByAxis, Checks, Summary, method_name};
+use crate::json::{Members, Scalar, each};
+use crate::view;
 
-/// The object; `x`, `y`, `stop`, `surfaces`, `contents`, `iterations`, `floor_spectrum` and `bounds` only where there are any.
-pub fn object(summary: &Summary) -> Json {
-    let mut keys = vec![
-        ("slipstick", summary.slipstick.into()),
-        ("model", summary.model.as_str().into()),
-        ("model_hash", summary.model_hash.as_deref().map_or(Json::Null, Json::from)),
-        ("method", method_name(summary.method).into()),
-        ("samples", (summary.samples as u64).into()),
-        ("dt_s", summary.dt_s.into()),
-        ("duration_s", summary.duration_s.into()),
-        ("friction_factor", summary.friction_factor.into()),
-        ("record", record(summary)),
-    ];
-    let by_axis = summary.by_axis.as_ref();
-    let absent = by_axis.map(|_| InDirections::Axis);
-    keys.extend(demands(&summary.demands, &summary.names, |demand| {
-        Some(demand.in_directions) != absent
-    }));
-    if let Some(by_axis) = by_axis {
-        let direction = by_axis.peak_sliding_displacement_direction_rad;
-        keys.push(("peak_sliding_displacement_direction_rad", direction.into()));
-        keys.push(("least_sliding_speed_m_per_s", by_axis.least_sliding_speed_m_per_s.into()));
-        for (i, axis) in ["x", "y"].into_iter().enumerate() {
-            let figures = figure_keys(&by_axis.record[i]).into();
-            let mut object = vec![("record", Json::Object(figures))];
-            object.extend(axis_demands(&by_axis.demands[i], &summary.names));
-            keys.push((axis, Json::Object(object)));
+/// `x`, `y`, `stop`, `surfaces`, `contents`, `iterations`, `floor_spectrum` and `bounds` only where there are any.
+impl Serialize for Summary {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let Self { demands, names, .. } = self;
+        let absent = self.by_axis.as_ref().map(|_| InDirections::Axis);
+        let by_axis = self.by_axis.as_ref().map(|by_axis| {
+            let ByAxis { peak_sliding_displacement_direction_rad, .. } = **by_axis;
+            let axis = |i: usize| {
+                view! {
+                    record: figures(&by_axis.record[i]),
+                    #[serde(flatten)] demands: axis_demands(&by_axis.demands[i], names),
+                }
+            };
+            view! {
+                peak_sliding_displacement_direction_rad,
+                least_sliding_speed_m_per_s: by_axis.least_sliding_speed_m_per_s,
+                x: axis(0),
+                y: axis(1),
+            }
+        });
+        let iterations = self.iterations.map(|found| {
+            view! { iterations: view! { mean: found.mean, max: found.max } }
+        });
+        let floor_spectrum = self.floor_spectra.as_ref().map(|spectra| {
+            view! { floor_spectrum: floor_spectrum(spectra) }
+        });
+        let bounds = self.bounds.as_ref().map(|bounds| {
+            view! { bounds: view! { lower: &bounds.lower, upper: &bounds.upper } }
+        });
+        view! {
+            slipstick: self.slipstick,
+            model: &self.model,
+            model_hash: &self.model_hash,
+            method: method_name(self.method),
+            samples: self.samples,
+            dt_s: self.dt_s,
+            duration_s: self.duration_s,
+            friction_factor: self.friction_factor,
+            record: view! {
+                #[serde(flatten)] origin: origin(&self.origin),
+                factor: self.record_factor,
+                #[serde(flatten)] figures: figures(&self.record),
+            },
+            #[serde(flatten)] demands: self::demands(demands, names, |demand| {
+                Some(demand.in_directions) != absent
+            }),
+            #[serde(flatten)] by_axis,
+            contact_loss_s: &self.contact_loss_s,
+            warnings: listed(&self.warnings, false),
+            notes: listed(&self.warnings, true),
+            checks: checks(&self.checks),
+            #[serde(flatten)] iterations,
+            #[serde(flatten)] floor_spectrum,
+            #[serde(flatten)] bounds,
         }
+        .serialize(to)
     }
-    keys.extend([
-        (
-            "contact_loss_s",
-            Json::List(
-                summary
-                    .contact_loss_s
-                    .iter()
-                    .map(|&[from, to]| Json::List(vec![from.into(), to.into()]))
-                    .collect(),
-            ),
-        ),
-        ("warnings", listed(&summary.warnings, false)),
-        ("notes", listed(&summary.warnings, true)),
-        ("checks", checks(&summary.checks)),
-    ]);
-    if let Some(iterations) = summary.iterations {
-        let max = u64::from(iterations.max);
-        keys.push((
-            "iterations",
-            Json::Object(vec![("mean", iterations.mean.into()), ("max", max.into())]),
-        ));
-    }
-    if let Some(spectra) = &summary.floor_spectra {
-        keys.push(("floor_spectrum", floor_spectrum(spectra)));
-    }
-    if let Some(bounds) = &summary.bounds {
-        keys.push((
-            "bounds",
-            Json::Object(vec![("lower", object(&bounds.lower)), ("upper", object(&bounds.upper))]),
-        ));
-    }
-    Json::Object(keys)
 }
 
-fn record(summary: &Summary) -> Json {
-    let Summary { record: figures, origin, record_factor, .. } = summary;
-    let mut keys = origin_keys(origin);
-    keys.push(("factor", (*record_factor).into()));
-    keys.extend(figure_keys(figures));
-    Json::Object(keys)
-}
-
-fn figure_keys(figures: &Figures) -> [(&'static str, Json); 4] {
-    [
-        ("pga_m_per_s2", figures.pga_m_per_s2.into()),
-        ("pgv_m_per_s", figures.pgv_m_per_s.into()),
-        ("pgd_m", figures.pgd_m.into()),
-        ("end_velocity_m_per_s", figures.end_velocity_m_per_s.into()),
-    ]
+fn figures(figures: &Figures) -> impl Serialize {
+    view! {
+        pga_m_per_s2: figures.pga_m_per_s2,
+        pgv_m_per_s: figures.pgv_m_per_s,
+        pgd_m: figures.pgd_m,
+        end_velocity_m_per_s: figures.end_velocity_m_per_s,
+    }
 }
 
 /// What a file says of where it was recorded.
-fn origin_keys(origin: &Origin) -> Vec<(&'static str, Json)> {
-    let text = |text: &Option<String>| text.as_deref().map_or(Json::Null, Json::from);
-    let mut keys = vec![
-        ("event", text(&origin.event)),
-        ("station", text(&origin.station)),
-        ("component", text(&origin.component)),
-        ("azimuth_deg", origin.azimuth_deg.into()),
-    ];
-    if let Some(y) = &origin.along_y {
-        keys.push(("component_y", text(&y.component)));
-        keys.push(("azimuth_y_deg", y.azimuth_deg.into()));
+fn origin(origin: &Origin) -> impl Serialize {
+    let along_y = origin.along_y.as_ref();
+    view! {
+        event: &origin.event,
+        station: &origin.station,
+        component: &origin.component,
+        azimuth_deg: origin.azimuth_deg,
+        #[serde(flatten)] along_y: along_y.map(|y| {
+            view! { component_y: &y.component, azimuth_y_deg: y.azimuth_deg }
+        }),
     }
-    keys
 }
 
 /// How many runs of an answer were certified, and which of them was the worst.
-pub(crate) fn certified_keys(certified: &Certified) -> Json {
-    let refused = certified.unconfirmed.iter().map(|refused| {
-        Json::Object(vec![
-            ("run", refused.run.as_str().into()),
-            ("what", refused.what.as_str().into()),
-        ])
-    });
-    Json::Object(vec![
-        ("runs", certified.runs.into()),
-        ("certified", certified.certified.into()),
-        ("worst", certified.worst.as_ref().map_or(Json::Null, worst_keys)),
-        ("unconfirmed", Json::List(refused.collect())),
-    ])
+pub(crate) fn certified_keys(certified: &Certified) -> impl Serialize {
+    view! {
+        runs: certified.runs,
+        certified: certified.certified,
+        worst: certified.worst.as_ref().map(worst_keys),
+        unconfirmed: each(&certified.unconfirmed, |of| view! { run: &of.run, what: &of.what }),
+    }
 }
 
 /// The worst of certified runs: what it is called, the figure or demand, and its size.
 #[must_use]
-pub fn worst_keys(worst: &Worst) -> Json {
-    Json::Object(vec![
-        ("run", worst.run.as_str().into()),
-        ("what", worst.what.as_str().into()),
-        ("error", worst.error.into()),
-    ])
+pub fn worst_keys(worst: &Worst) -> impl Serialize {
+    view! { run: &worst.run, what: &worst.what, error: worst.error }
 }
 
 /// The records that an answer is of, each with what its file says and what reading it gave notice of.
-pub(crate) fn suite(records: &[Recorded]) -> Json {
-    let one = |on: &Recorded| {
-        let mut keys = vec![("record", on.name.as_str().into())];
-        keys.extend(origin_keys(&on.origin));
-        keys.extend([
-            ("scale", on.factor.into()),
-            ("pga_m_per_s2", on.pga_m_per_s2.into()),
-            ("notices", Json::List(on.notices.iter().map(warning).collect())),
-        ]);
-        Json::Object(keys)
-    };
-    Json::List(records.iter().map(one).collect())
+pub(crate) fn suite(records: &[Recorded]) -> impl Serialize {
+    each(records, |on| {
+        view! {
+            record: &on.name,
+            #[serde(flatten)] origin: origin(&on.origin),
+            scale: on.factor,
+            pga_m_per_s2: on.pga_m_per_s2,
+            notices: each(&on.notices, warning),
+        }
+    })
 }
 
-fn floor_spectrum(spectra: &FloorSpectra) -> Json {
-    let list = |values: &[f64]| Json::List(values.iter().map(|&value| value.into()).collect());
-    Json::Object(vec![
-        ("damping_ratio", spectra.damping_ratio.into()),
-        ("period_s", list(&spectra.periods_s)),
-        ("table_acceleration_m_per_s2", list(&spectra.table_m_per_s2)),
-        ("block_acceleration_m_per_s2", list(&spectra.block_m_per_s2)),
-        (
-            "storeys_acceleration_m_per_s2",
-            Json::List(spectra.storeys_m_per_s2.iter().map(|floor| list(floor)).collect()),
-        ),
-    ])
+fn floor_spectrum(spectra: &FloorSpectra) -> impl Serialize {
+    view! {
+        damping_ratio: spectra.damping_ratio,
+        period_s: &spectra.periods_s,
+        table_acceleration_m_per_s2: &spectra.table_m_per_s2,
+        block_acceleration_m_per_s2: &spectra.block_m_per_s2,
+        storeys_acceleration_m_per_s2: &spectra.storeys_m_per_s2,
+    }
+}
+
+/// Demands as members of an object, and of objects and lists in it.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Entry<'a> {
+    Value(Scalar<'a>),
+    Object(Members<Scalar<'a>>),
+    List(Vec<Members<Scalar<'a>>>),
 }
 
 /// Those of an axis, without what is of neither.
-fn axis_demands(demands: &Demands, names: &Names) -> Vec<(&'static str, Json)> {
-    let all = self::demands(demands, names, |_| true);
+fn axis_demands<'a>(demands: &Demands, names: &'a Names) -> Members<Entry<'a>> {
+    let Members(mut all) = self::demands(demands, names, |_| true);
     let of_resultant = |key: &str| {
         let of = |demand: &&Demand| demand.key == key && demand.of == DemandOf::Run;
         let demand = DEMANDS.iter().find(of);
         demand.is_some_and(|demand| demand.in_directions == InDirections::Resultant)
     };
-    all.into_iter().filter(|(key, _)| !of_resultant(key)).collect()
+    all.retain(|(key, _)| !of_resultant(key));
+    Members(all)
 }
 
 /// The demands in the order of the registry; `block.x` is `x` in the object `block`. Block and storeys
 /// have their names, where the model gives them; what has no value here is null.
-fn demands(
+fn demands<'a>(
     demands: &Demands,
-    names: &Names,
+    names: &'a Names,
     has_value: impl Fn(&Demand) -> bool,
-) -> Vec<(&'static str, Json)> {
-    let name = |name: &Option<String>| name.as_ref().map(|name| ("name", name.as_str().into()));
-    let json = |column: DemandColumn| {
+) -> Members<Entry<'a>> {
+    let named = |name: &'a String| ("name", Scalar::Text(name));
+    let value = |column: DemandColumn| {
         let value = column.value(demands).filter(|_| has_value(column.demand));
-        json(column.demand.kind, value)
+        scalar(column.demand.kind, value)
     };
     let of_part = |of: DemandOf, part: usize| {
         let own = DEMANDS.iter().filter(|demand| demand.of == of);
-        let own = own.map(|demand| (demand.key, json(DemandColumn { demand, part })));
+        let own = own.map(|demand| (demand.key, value(DemandColumn { demand, part })));
         let storey = names.storeys.get(part - 1).filter(|_| of == DemandOf::Storey);
         let point = names.points.get(part - 1).filter(|_| of == DemandOf::Point);
-        let named = storey.and_then(name).or(point.map(|point| ("name", point.as_str().into())));
-        Json::Object(named.into_iter().chain(own).collect())
+        let name = storey.and_then(Option::as_ref).or(point).map(named);
+        Members(name.into_iter().chain(own).collect())
     };
-    let mut keys: Vec<(&'static str, Json)> = Vec::new();
+    let mut keys: Vec<(&'static str, Entry<'a>)> = Vec::new();
     for demand in DEMANDS.iter().filter(|demand| demand.in_summary) {
         if let Some(list) = demand.of.list() {
             let count = match demand.of {
@@ -210,66 +192,68 @@ fn demands(
             let wanted = count > 0 || demand.of == DemandOf::Storey;
             if wanted && !keys.iter().any(|(key, _)| *key == list) {
                 let parts = (1..=count).map(|part| of_part(demand.of, part));
-                keys.push((list, Json::List(parts.collect())));
+                keys.push((list, Entry::List(parts.collect())));
             }
             continue;
         }
         if demand.of == DemandOf::Stop && demands.stop.is_none() {
             continue;
         }
-        let value = json(DemandColumn { demand, part: 0 });
+        let value = value(DemandColumn { demand, part: 0 });
         match (demand.key.split_once('.'), keys.last_mut()) {
-            (None, _) => keys.push((demand.key, value)),
-            (Some((group, key)), Some((last, Json::Object(members)))) if *last == group => {
+            (None, _) => keys.push((demand.key, Entry::Value(value))),
+            (Some((group, key)), Some((last, Entry::Object(Members(members)))))
+                if *last == group =>
+            {
                 members.push((key, value));
             }
             (Some((group, key)), _) => {
-                let named = if group == "block" { name(&names.block) } else { None };
-                keys.push((group, Json::Object(named.into_iter().chain([(key, value)]).collect())));
+                let name = names.block.as_ref().filter(|_| group == "block").map(named);
+                let members = name.into_iter().chain([(key, value)]).collect();
+                keys.push((group, Entry::Object(Members(members))));
             }
         }
     }
-    keys
+    Members(keys)
 }
 
-fn json(kind: DemandKind, value: Option<f64>) -> Json {
+fn scalar(kind: DemandKind, value: Option<f64>) -> Scalar<'static> {
     match (kind, value) {
-        (DemandKind::Count, Some(value)) => Json::Count(value as u64),
-        (DemandKind::Flag, Some(value)) => Json::Bool(value != 0.0),
-        (_, value) => value.into(),
+        (DemandKind::Count, Some(value)) => Scalar::Count(value as u64),
+        (DemandKind::Flag, Some(value)) => Scalar::Flag(Some(value != 0.0)),
+        (_, value) => Scalar::Number(value),
     }
 }
 
 /// The warnings among some, or the notes.
-pub(crate) fn listed(all: &[Notice], notes: bool) -> Json {
-    Json::List(all.iter().filter(|warning| warning.is_note() == notes).map(warning).collect())
+pub(crate) fn listed(all: &[Notice], notes: bool) -> impl Serialize {
+    each(all.iter().filter(|warning| warning.is_note() == notes), warning)
 }
 
-fn warning(warning: &Notice) -> Json {
-    Json::Object(vec![
-        ("kind", warning.kind.name().into()),
-        ("severity", warning.severity().name().into()),
-        ("time_s", warning.time_s.into()),
-        ("message", warning.message.as_str().into()),
-    ])
+fn warning(warning: &Notice) -> impl Serialize {
+    view! {
+        kind: warning.kind.name(),
+        severity: warning.severity().name(),
+        time_s: warning.time_s,
+        message: &warning.message,
+    }
 }
 
-fn checks(checks: &Checks) -> Json {
-    let closest = checks.closest_call.map_or(Json::Null, |call| {
-        Json::Object(vec![
-            ("margin", call.margin.into()),
-            ("time_s", call.time_s.into()),
-            ("kind", call.kind.name().into()),
-            ("interface", Json::Text(call.interface_name())),
-        ])
-    });
-    Json::Object(vec![
-        ("equilibrium_residual", checks.equilibrium_residual.into()),
-        ("friction_excess", checks.friction_excess.into()),
-        ("energy_balance_error", checks.energy_balance_error.into()),
-        ("demands_error", checks.demands_error.into()),
-        ("closest_call", closest),
-        ("bound", checks.bound.into()),
-        ("holds", checks.holds.map_or(Json::Null, Json::Bool)),
-    ])
+fn checks(checks: &Checks) -> impl Serialize {
+    view! {
+        equilibrium_residual: checks.equilibrium_residual,
+        friction_excess: checks.friction_excess,
+        energy_balance_error: checks.energy_balance_error,
+        demands_error: checks.demands_error,
+        closest_call: checks.closest_call.map(|call| {
+            view! {
+                margin: call.margin,
+                time_s: call.time_s,
+                kind: call.kind.name(),
+                interface: call.interface_name(),
+            }
+        }),
+        bound: checks.bound,
+        holds: checks.holds,
+    }
 }

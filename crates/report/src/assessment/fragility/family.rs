@@ -4,12 +4,14 @@ use slipstick::assessment::observed::{Averaged, FragilityGroup, FragilityRun};
 use slipstick::notice::{Notice, NoticeKind};
 
 use super::{FragilityReport, POINTS};
+use crate::assessment::key::group_value;
 use crate::assessment::lines::{GROUPS, line, panel, single};
 use crate::assessment::sheet::{Sheet, cell};
 use crate::display::{DisplayUnits, Unit};
-use crate::json::Json;
+use crate::json::{each, pretty};
 use crate::number::compact;
 use crate::plot::Axis;
+use crate::view;
 
 /// What several fragilities are told from.
 #[derive(Clone, Debug)]
@@ -201,26 +203,23 @@ impl FragilityFamily<'_> {
         single("fragility", "Fragility curves", caption, panel(x, y, 300.0, series))
     }
 
-    fn json(&self) -> Vec<(&'static str, Json)> {
-        let of = |group: &FragilityGroup| {
-            let value = if group.value.is_nan() {
-                Json::from(group.text.as_str())
-            } else {
-                Json::from(group.value)
-            };
-            let found = match &group.run {
-                Ok(run) => ("fragility", Json::Object(self.report(run).json())),
-                Err(error) => ("error", Json::from(error.to_string().as_str())),
-            };
-            Json::Object(vec![("value", value), found])
-        };
-        vec![
-            ("name", self.name.into()),
-            ("by", self.by.into()),
-            ("by_unit", self.by_unit.into()),
-            ("demand", self.demand.into()),
-            ("limit", self.limit.into()),
-            ("curves", Json::List(self.groups.iter().map(of).collect())),
-        ]
+    fn json(&self) -> String {
+        let reports = each(self.groups, |group| group.run.as_ref().map(|run| self.report(run)));
+        pretty(&view! {
+            name: self.name,
+            by: self.by,
+            by_unit: self.by_unit,
+            demand: self.demand,
+            limit: self.limit,
+            curves: each(self.groups.iter().zip(&reports), |(group, found)| {
+                let fragility = found.as_ref().ok().map(FragilityReport::json);
+                let error = found.as_ref().err().map(ToString::to_string);
+                view! {
+                    value: group_value(group.value, &group.text),
+                    #[serde(flatten)] fragility: fragility.map(|fragility| view! { fragility }),
+                    #[serde(flatten)] error: error.map(|error| view! { error }),
+                }
+            }),
+        })
     }
 }

@@ -1,19 +1,21 @@
 //! Incremental dynamic analyses of the same records by the values of a path.
 
+use serde::Serialize;
 use slipstick::assessment::FailedRun;
 use slipstick::assessment::ida::{IdaGroup, IdaRun, level_fractiles};
 use slipstick::motion::intensity::LevelMeasure;
 use slipstick::notice::Notice;
 
 use super::IdaReport;
-use crate::assessment::key::title;
+use crate::assessment::key::{group_value, title};
 use crate::assessment::lines::{GROUPS, RECORD, clipped, line, panel, share_names, single};
 use crate::assessment::sheet::{Sheet, cell, counted_as, failed};
 use crate::display::DisplayUnits;
 use crate::figures::Drawn;
-use crate::json::Json;
+use crate::json::{each, pretty};
 use crate::number::compact;
 use crate::plot::{Axis, Series, Style};
+use crate::view;
 
 /// What an incremental dynamic analysis of one or several designs is told from.
 #[derive(Clone, Debug)]
@@ -148,7 +150,7 @@ impl Groups<'_> {
             figures: vec![self.figure()],
             method: first.map_or_else(Vec::new, IdaReport::method),
             complete: family.run.failures.is_empty(),
-            json: self.json(measure),
+            json: pretty(&self.json(measure)),
             ..Sheet::default()
         }
     }
@@ -244,25 +246,18 @@ impl Groups<'_> {
         single("ida", "Incremental dynamic analysis", caption, panel(x, y, 300.0, series))
     }
 
-    fn json(&self, measure: &str) -> Vec<(&'static str, Json)> {
-        let of = |(group, report): (&IdaGroup, &IdaReport<'_>)| {
-            let value = if group.value.is_nan() {
-                Json::from(group.text.as_str())
-            } else {
-                Json::from(group.value)
-            };
-            Json::Object(vec![("value", value), ("ida", Json::Object(report.json()))])
-        };
-        let groups = self.family.run.groups.iter().zip(self.reports).map(of).collect();
-        vec![
-            ("model", self.family.name.into()),
-            ("measure", measure.into()),
-            ("measure_unit", self.family.measure.unit().into()),
-            ("demand", self.family.demand.into()),
-            ("limit", self.family.limit.into()),
-            ("by", self.by.into()),
-            ("by_unit", self.unit.into()),
-            ("groups", Json::List(groups)),
-        ]
+    fn json(&self, measure: &str) -> impl Serialize {
+        view! {
+            model: self.family.name,
+            measure,
+            measure_unit: self.family.measure.unit(),
+            demand: self.family.demand,
+            limit: self.family.limit,
+            by: self.by,
+            by_unit: self.unit,
+            groups: each(self.family.run.groups.iter().zip(self.reports), |(group, report)| {
+                view! { value: group_value(group.value, &group.text), ida: report.json() }
+            }),
+        }
     }
 }
