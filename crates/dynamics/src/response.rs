@@ -349,6 +349,8 @@ pub struct StoreyDemands {
     pub peak_drift_m: f64,
     /// Drift over the storey's height, where heights are given.
     pub peak_drift_ratio: Option<f64>,
+    /// Velocity relative to the floor below in m/s.
+    pub peak_drift_velocity_m_per_s: f64,
 }
 
 /// What the response asks of the stop.

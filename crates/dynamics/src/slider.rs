@@ -10,6 +10,7 @@ mod friction;
 mod hold;
 mod isotropic;
 mod law;
+mod pressure;
 pub(crate) mod ranges;
 mod rate;
 mod series;
@@ -21,6 +22,8 @@ pub use friction::Friction;
 pub(crate) use hold::{Disc, Hold};
 pub(crate) use isotropic::Kinetic;
 pub(crate) use law::{Law, Memory};
+pub(crate) use pressure::Pressing;
+pub use pressure::PressureLaw;
 pub(crate) use rate::Coefficient;
 pub use rate::{RateCurve, RateLaw};
 pub use series::{Surface, SurfacesInSeries};
@@ -245,6 +248,12 @@ impl Slider {
     #[must_use]
     pub fn rate(&self) -> Option<&RateLaw> {
         self.bearing.rate()
+    }
+
+    /// How friction follows the pressure, where it does.
+    #[must_use]
+    pub fn pressure(&self) -> Option<&PressureLaw> {
+        self.bearing.friction().and_then(Friction::pressure)
     }
 
     /// The surfaces in series, where there are such.

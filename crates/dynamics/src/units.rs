@@ -50,11 +50,13 @@ pub enum Dimension {
     Damper,
     /// Rate at which friction follows the sliding speed, in s/m.
     Slowness,
+    /// Pressure, in Pa.
+    Pressure,
 }
 
 impl Dimension {
     /// Every dimension, in the order of the printed table.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Mass,
         Self::Force,
         Self::Length,
@@ -66,6 +68,7 @@ impl Dimension {
         Self::Stiffness,
         Self::Damper,
         Self::Slowness,
+        Self::Pressure,
     ];
 
     /// Its name, such as "length".
@@ -83,6 +86,7 @@ impl Dimension {
             Self::Stiffness => "stiffness",
             Self::Damper => "damper constant",
             Self::Slowness => "rate by speed",
+            Self::Pressure => "pressure",
         }
     }
 
@@ -108,6 +112,7 @@ impl Dimension {
             Self::Stiffness => "143 kN/m",
             Self::Damper => "250 N s/m",
             Self::Slowness => "25 s/m",
+            Self::Pressure => "20 MPa",
         }
     }
 
@@ -126,6 +131,7 @@ impl Dimension {
             Self::Stiffness => &STIFFNESS,
             Self::Damper => &DAMPER,
             Self::Slowness => &SLOWNESS,
+            Self::Pressure => &PRESSURE,
         }
     }
 
@@ -239,6 +245,15 @@ const SLOWNESS: [Unit; 5] = [
     Unit::times("s/cm", 1e2),
     Unit::over("s/in", INCH_M),
     Unit::over("s/ft", FOOT_M),
+];
+
+const PRESSURE: [Unit; 6] = [
+    Unit::times("Pa", 1.0),
+    Unit::times("kPa", 1e3),
+    Unit::times("MPa", 1e6),
+    Unit::times("N/mm2", 1e6),
+    Unit::times("psi", POUND_FORCE_N / (INCH_M * INCH_M)),
+    Unit::times("ksi", 1e3 * POUND_FORCE_N / (INCH_M * INCH_M)),
 ];
 
 /// Every unit with its dimension, in the order of the printed table.

@@ -111,6 +111,18 @@ fn friction_rows(model: &Model, display: DisplayUnits, rows: &mut Vec<(&'static 
         rows.push(("Static over kinetic friction", compact(series.static_ratio())));
         return;
     }
+    if let Some(law) = slider.pressure() {
+        let mpa = |pa: f64| compact(1e-6 * pa);
+        rows.push((
+            "Friction by pressure",
+            format!(
+                "μ (p/{} MPa)^−{}, {} MPa at rest: the coefficients here",
+                mpa(law.reference_pa()),
+                compact(law.exponent()),
+                mpa(law.at_rest_pa())
+            ),
+        ));
+    }
     rows.push(("Static friction μₛ", by_direction(model.static_friction())));
     let Some(rate) = slider.rate() else {
         rows.push(("Kinetic friction μₖ", by_direction(model.kinetic_friction())));

@@ -64,7 +64,7 @@ pub fn stiffness_n_per_m(model: &Model) -> f64 {
 ///
 /// # Errors
 /// [`ChoiceError`] for what such a model cannot express: static friction above the kinetic one at rest,
-/// friction of 0, friction by speed or under vertical motion that is not alike both ways, flat surfaces or
+/// friction of 0, friction by pressure under vertical motion, friction by speed or under vertical motion that is not alike both ways, flat surfaces or
 /// more than three in series, stops with a damper that cannot pull, a slope, an initial state, vertical
 /// motion that lifts the block; and unless the stiffness is finite and > 0.
 pub fn script(
@@ -351,6 +351,11 @@ fn expressible(model: &Model, motion: &GroundMotion) -> Result<SliderElement, Ch
     let slider = model.slider();
     let vertical = motion.vertical_m_per_s2();
     let no = |what: &str, expected: &str, found: &str| Err(refused(what, expected, found));
+    if let Some(law) = slider.pressure().filter(|law| vertical.is_some() && law.exponent() > 0.0) {
+        let expected =
+            "0 under vertical motion: OpenSees' friction models follow the pressure by other laws";
+        return no("slider.pressure.exponent", expected, &law.exponent().to_string());
+    }
     let element = if let Some(series) = slider.series() {
         in_series(series)?;
         SliderElement::Triple

@@ -80,6 +80,7 @@ fn check_run(value: &Value, storeys: usize) {
         check(storey, "/peak_displacement_m", Number);
         check(storey, "/peak_drift_m", Number);
         check(storey, "/peak_drift_ratio", NumberOrNull);
+        check(storey, "/peak_drift_velocity_m_per_s", Number);
     }
     for warning in value["warnings"].as_array().unwrap() {
         check(warning, "/kind", Text);

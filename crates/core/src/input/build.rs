@@ -11,7 +11,8 @@ use crate::error::{InputError, ModelError};
 use crate::model::{Block, Contents, InitialState, Model, Slider, Stop};
 use crate::response::Method;
 use crate::slider::{
-    Bearing, Direction, Ends, Friction, RateCurve, RateLaw, Restoring, Surface, SurfacesInSeries,
+    Bearing, Direction, Ends, Friction, PressureLaw, RateCurve, RateLaw, Restoring, Surface,
+    SurfacesInSeries,
 };
 use crate::units::{LARGEST, STANDARD_GRAVITY_M_PER_S2};
 
@@ -227,11 +228,31 @@ fn friction(values: &Values) -> Result<Friction, InputError> {
         }
     }
     let fixed = statics.map(|s| s.coefficient);
+    let pressure = pressure(values)?;
     match by_speed {
         Some(law) => Friction::by_speed(fixed, law),
         None => Friction::by_direction(fixed, kinetics.map(|k| k.coefficient)),
     }
+    .and_then(|friction| match pressure {
+        Some(law) => friction.under_pressure(law),
+        None => Ok(friction),
+    })
     .map_err(|error| model_error(values, &error))
+}
+
+/// How friction follows the pressure.
+fn pressure(values: &Values) -> Result<Option<PressureLaw>, InputError> {
+    if !values.has("slider.pressure") {
+        return Ok(None);
+    }
+    let number = |key: &str| values.required(&format!("slider.pressure.{key}"));
+    let (at_rest_pa, reference_pa) = (number("at_rest")?, number("reference")?);
+    let exponent = number("exponent")?;
+    if exponent >= 1.0 {
+        return Err(values.wrong("slider.pressure.exponent", "a number from 0 to below 1"));
+    }
+    let law = PressureLaw::new(at_rest_pa, reference_pa, exponent);
+    law.map(Some).map_err(|error| model_error(values, &error))
 }
 
 /// Kinetic friction by sliding speed.

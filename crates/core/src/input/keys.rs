@@ -2,8 +2,8 @@
 
 use super::schema::{Exclusive, Key, Kind, Range, Section};
 use crate::units::Dimension::{
-    Acceleration, Angle, Damper, Force, Frequency, Length, Mass, Slowness, Stiffness, Time,
-    Velocity,
+    Acceleration, Angle, Damper, Force, Frequency, Length, Mass, Pressure, Slowness, Stiffness,
+    Time, Velocity,
 };
 
 /// The most storeys a model may have: more than any building has, few enough that finding all their
@@ -106,6 +106,12 @@ static SLIDER: Section = Section {
              but with surfaces in series.",
         ),
         Key::optional(
+            "pressure",
+            Kind::Section(&PRESSURE),
+            "How both coefficients of friction follow the pressure: they fall as it grows, \
+             μ(p) = μ (p/reference)^(-exponent).",
+        ),
+        Key::optional(
             "static_ratio",
             Kind::Number(Range::Positive),
             "Static over kinetic friction of surfaces in series, at least 1; default 1.",
@@ -185,6 +191,7 @@ static SLIDER: Section = Section {
         Exclusive::at_most(&["gap", "stop"]),
         Exclusive::at_most(&["surface", "triple", "static_friction"]),
         Exclusive::at_most(&["surface", "triple", "kinetic_friction"]),
+        Exclusive::at_most(&["surface", "triple", "pressure"]),
         Exclusive::at_most(&["surface", "triple", "spring"]),
         Exclusive::at_most(&["surface", "triple", "radius"]),
         Exclusive::at_most(&["surface", "triple", "period"]),
@@ -192,6 +199,27 @@ static SLIDER: Section = Section {
         Exclusive::at_most(&["surface", "triple", "asymmetry"]),
         Exclusive::at_most(&["static_ratio", "static_friction"]),
     ],
+};
+
+static PRESSURE: Section = Section {
+    keys: &[
+        Key::required(
+            "at_rest",
+            Kind::Quantity(Pressure, Range::Positive),
+            "Pressure under the weight alone; under vertical motion the pressure goes with the normal force.",
+        ),
+        Key::required(
+            "reference",
+            Kind::Quantity(Pressure, Range::Positive),
+            "Pressure at which static_friction and kinetic_friction hold.",
+        ),
+        Key::required(
+            "exponent",
+            Kind::Number(Range::NotNegative),
+            "Exponent of the pressure, from 0 to below 1.",
+        ),
+    ],
+    choices: &[],
 };
 
 static SURFACE: Section = Section {

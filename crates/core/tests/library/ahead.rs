@@ -90,6 +90,7 @@ fn difference(a: &Response, b: &Response, rows: [usize; 2]) -> (f64, String) {
         own("floor", x.peak_acceleration_m_per_s2, y.peak_acceleration_m_per_s2);
         own("displacement", x.peak_displacement_m, y.peak_displacement_m);
         own("drift", x.peak_drift_m, y.peak_drift_m);
+        own("drift velocity", x.peak_drift_velocity_m_per_s, y.peak_drift_velocity_m_per_s);
     }
     for (x, y) in d.contents.iter().zip(&e.contents) {
         own("slide", x.peak_sliding_displacement_m, y.peak_sliding_displacement_m);

@@ -37,6 +37,7 @@ fn of_demands(demands: &Demands, path: &str) -> f64 {
             "peak_acceleration_m_per_s2" => storey.peak_acceleration_m_per_s2,
             "peak_displacement_m" => storey.peak_displacement_m,
             "peak_drift_m" => storey.peak_drift_m,
+            "peak_drift_velocity_m_per_s" => storey.peak_drift_velocity_m_per_s,
             what => panic!("no {what}"),
         };
     }

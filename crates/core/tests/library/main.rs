@@ -23,6 +23,7 @@ mod nasty;
 mod networks;
 mod orders;
 mod plane;
+mod pressure;
 mod properties;
 mod records;
 mod reference;

@@ -47,6 +47,8 @@ fn differences(a: &Demands, b: &Demands) -> Vec<(&'static str, f64)> {
         all.push(("floor", over(x, y, x)));
         let [x, y] = [a.peak_drift_m, b.peak_drift_m];
         all.push(("drift", over(x, y, x)));
+        let [x, y] = [a.peak_drift_velocity_m_per_s, b.peak_drift_velocity_m_per_s];
+        all.push(("drift velocity", over(x, y, x)));
     }
     all
 }

@@ -141,6 +141,7 @@ fn figures(r: &Response) -> (Vec<Figure>, [u64; 3], bool) {
         own("floor acceleration", storey.peak_acceleration_m_per_s2);
         own("displacement", storey.peak_displacement_m);
         own("drift", storey.peak_drift_m);
+        own("drift velocity", storey.peak_drift_velocity_m_per_s);
     }
     (list, [d.slip_count, d.reversal_count, d.stick_count], d.sliding_at_end)
 }

@@ -105,6 +105,8 @@ fn assert_alike(name: &str, frame: &Response, modes: &Response) {
         same("acceleration", size, y.peak_acceleration_m_per_s2, size);
         same("displacement", x.peak_displacement_m, y.peak_displacement_m, x.peak_displacement_m);
         same("drift", x.peak_drift_m, y.peak_drift_m, x.peak_drift_m);
+        let [fast, other] = [x, y].map(|storey| storey.peak_drift_velocity_m_per_s);
+        same("drift velocity", fast, other, fast);
         let ratio = |d: &slipstick::response::StoreyDemands| d.peak_drift_ratio.unwrap_or(0.0);
         same("drift ratio", ratio(x), ratio(y), ratio(x));
     }

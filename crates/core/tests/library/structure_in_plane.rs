@@ -41,6 +41,11 @@ fn figures(d: &Demands, root: &Demands) -> Vec<(String, f64, f64)> {
             ("acceleration", point.peak_acceleration_m_per_s2, whole.peak_acceleration_m_per_s2),
             ("displacement", point.peak_displacement_m, whole.peak_displacement_m),
             ("drift", point.peak_drift_m, whole.peak_drift_m),
+            (
+                "drift velocity",
+                point.peak_drift_velocity_m_per_s,
+                whole.peak_drift_velocity_m_per_s,
+            ),
             ("drift ratio", ratio, whole.peak_drift_ratio.unwrap_or(1.0)),
         ]);
     }

@@ -289,6 +289,9 @@ fn of_peaks(
         c.within(storey.peak_displacement_m, own.peak(Output::Displacement(i)), near_m);
         c.of_part(part, i, "peak_drift_m");
         c.within(storey.peak_drift_m, own.peak(Output::Drift(i)), near_m);
+        c.of_part(part, i, "peak_drift_velocity_m_per_s");
+        let fast = own.peak(Output::DriftVelocity(i));
+        c.within(storey.peak_drift_velocity_m_per_s, fast, rounding.velocity_m_per_s);
         let near = force_n / mass_kg(i);
         c.of_part(part, i, "peak_acceleration_m_per_s2");
         c.within(storey.peak_acceleration_m_per_s2, own.peak(Output::Acceleration(i)), near);

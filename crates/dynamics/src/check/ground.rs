@@ -26,12 +26,16 @@ impl Load {
         instant_s * self.normal_slope.abs() + 8.0 * f64::EPSILON * normal
     }
 
-    /// The same of a force on a mass and of a bound `μ N`, in N: `m |dÜ/dt| δt + μ δN`.
-    pub(super) fn rounding(&self, (instant_s, normal): (f64, f64), mass_kg: f64, mu: f64) -> f64 {
-        let of_mass = instant_s * mass_kg * self.slope.abs();
-        of_mass + mu * self.normal_rounding((instant_s, normal))
+    /// The same of a force on a mass, in N: `m |dÜ/dt| δt`.
+    pub(super) fn rounding_of_mass(&self, (instant_s, _): (f64, f64), mass_kg: f64) -> f64 {
+        instant_s * mass_kg * self.slope.abs()
     }
 }
+
+/// Largest change of `N` over a piece, as a part of it, where friction follows a power of it; and what of that at rest is
+/// no normal force for this.
+const MOST_CHANGE: f64 = 0.3;
+const NO_PRESS: f64 = 1e-10;
 
 /// A stretch in which `a` and `N` are linear.
 pub(super) struct Piece {
@@ -53,6 +57,8 @@ pub(super) struct Ground<'a> {
     slope: f64,
     gravity: f64,
     total_kg: f64,
+    /// Whether friction follows a power of `N`, of which a piece takes no more than a part.
+    follows_pressure: bool,
     /// Index of the sample at or before the last piece asked for.
     cursor: usize,
     /// Rounding of a time, and the largest `N` up to the end.
@@ -78,6 +84,8 @@ impl<'a> Ground<'a> {
             slope: model.slope_m_per_s2(),
             gravity: model.normal_gravity_m_per_s2(),
             total_kg: model.total_mass_kg(),
+            follows_pressure: motion.vertical_m_per_s2().is_some()
+                && model.slider().pressure().is_some_and(|law| law.exponent() > 0.0),
             cursor: 0,
             blur: (8.0 * f64::EPSILON * end_s, 0.0),
         };
@@ -101,7 +109,8 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// The piece from `from_s` on, no longer than to `end_s`; ends where contact is lost or found.
+    /// The piece from `from_s` on, no longer than to `end_s`; ends where contact is lost or found, and where friction
+    /// follows a power of `N` before that has changed much.
     /// Quick where the times asked for do not decrease.
     pub(super) fn piece(&mut self, from_s: f64, end_s: f64) -> Piece {
         self.seek(from_s);
@@ -109,7 +118,8 @@ impl<'a> Ground<'a> {
         if i + 1 == times.len() {
             return Piece { to_s: end_s, loads: [self.at_rest(); 2] };
         }
-        if from_s == times[i] && end_s == times[i + 1] && self.press(i) * self.press(i + 1) >= 0.0 {
+        let is_whole = from_s == times[i] && end_s == times[i + 1] && !self.follows_pressure;
+        if is_whole && self.press(i) * self.press(i + 1) >= 0.0 {
             let [from, to] = [i, i + 1].map(|i| (self.horizontal[i], self.press(i)));
             let slopes = self.slopes(i);
             let loads = [self.load(from, slopes), self.load(to, slopes)];
@@ -131,6 +141,13 @@ impl<'a> Ground<'a> {
             }
         }
         let slopes = self.slopes(i);
+        if self.follows_pressure {
+            let most = MOST_CHANGE * from.1.max(NO_PRESS * self.gravity);
+            let cut_s = from_s + most / slopes[1].abs();
+            if cut_s < to_s && from_s < cut_s && from.1 + to.1 > 0.0 {
+                (to_s, to) = (cut_s, self.between(i, cut_s));
+            }
+        }
         Piece { to_s, loads: [self.load(from, slopes), self.load(to, slopes)] }
     }
 

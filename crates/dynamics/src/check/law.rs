@@ -66,6 +66,8 @@ pub(super) struct Law {
     pub(super) series: Option<SurfacesInSeries>,
     /// Of a pendulum whose spring follows `N`.
     radius_m: Option<f64>,
+    /// Where coefficients follow a pressure that varies: the exponent `m`, and `N` at rest.
+    pressure: Option<[f64; 2]>,
     stop: Option<Stop>,
 }
 
@@ -140,7 +142,35 @@ impl Law {
             rate: RateFriction::new(model),
             series: model.slider().series().cloned(),
             radius_m: model.slider().pendulum_radius_m(vertical).filter(|_| vertical),
+            pressure: model
+                .slider()
+                .pressure()
+                .filter(|law| vertical && law.exponent() > 0.0)
+                .map(|law| [law.exponent(), model.normal_n()]),
             stop: model.stop().copied(),
+        }
+    }
+
+    /// Whether friction follows a power of the normal force.
+    pub(super) fn follows_pressure(&self) -> bool {
+        self.pressure.is_some()
+    }
+
+    /// What the coefficients are multiplied by: `N`, or `N (N/N₀)^(−m)` where they follow the pressure.
+    pub(super) fn pressed(&self, normal: f64) -> f64 {
+        match self.pressure {
+            Some([exponent, at_rest]) if normal > 0.0 => {
+                normal * libm::pow(normal / at_rest, -exponent)
+            }
+            _ => normal,
+        }
+    }
+
+    /// What the rounding of `N` makes of that.
+    pub(super) fn pressed_rounding(&self, normal: f64, rounding: f64) -> f64 {
+        match self.pressure {
+            Some(_) => self.pressed(normal + rounding) - self.pressed(normal),
+            None => rounding,
         }
     }
 

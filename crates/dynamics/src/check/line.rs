@@ -175,7 +175,8 @@ impl<'a> Directions for Judge<'a, Line<'a>> {
                     (h.friction_force_n[k] - own).abs()
                 }
             };
-            let rounding = self.law.most() * load.normal_rounding(self.ground.blur());
+            let rounding = load.normal_rounding(self.ground.blur());
+            let rounding = self.law.most() * self.law.pressed_rounding(load.normal, rounding);
             force = force.min(excess(off - rounding));
         }
         self.figures.table[0] = larger(self.figures.table[0], table);

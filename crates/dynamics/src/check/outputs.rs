@@ -61,13 +61,13 @@ impl Outputs {
 
     /// Hands on all outputs in their order, at some instants. Those of the block are its velocity, the forces of slider
     /// and friction, the base shear and the force on a stop; then come total accelerations, all with the slope's
-    /// share: of the block, of points beside their displacements, of contents beside their velocities.
+    /// share: of the block, of points beside their displacements and velocities, of contents beside their velocities.
     #[inline(always)]
     pub(super) fn each<const N: usize>(
         &self,
         [w, slider, friction, base, stop]: [&Column<N>; 5],
         (slope, block): (f64, &Column<N>),
-        point: impl Fn(usize) -> [Column<N>; 2],
+        point: impl Fn(usize) -> [Column<N>; 3],
         carried: impl Fn(usize) -> [Column<N>; 2],
         mut out: impl FnMut(usize, Column<N>),
     ) {
@@ -82,15 +82,16 @@ impl Outputs {
         let mut moment = self.arm.as_ref().map(|arm| (arm, block.map(|block| block * arm.block)));
         let mut below = None;
         for i in 0..self.points {
-            let [q, total] = point(i);
+            let [q, v, total] = point(i);
+            let mut drift = [q, v];
             out(self.place(Output::Displacement(i)), q);
-            if let Some(below) = below {
-                let mut drift = q;
-                add(&mut drift, -1.0, &below);
-                out(self.place(Output::Drift(i)), drift);
+            if let Some(below) = &below {
+                drift.iter_mut().zip(below).for_each(|(drift, below)| add(drift, -1.0, below));
+                out(self.place(Output::Drift(i)), drift[0]);
             }
+            out(self.place(Output::DriftVelocity(i)), drift[1]);
             out(self.place(Output::Acceleration(i)), less_slope(&total));
-            below = Some(q);
+            below = Some([q, v]);
             if let Some((arm, sum)) = &mut moment {
                 add(sum, arm.floors[i], &total);
             }
@@ -108,22 +109,20 @@ impl Outputs {
         }
     }
 
-    /// Displacement and total acceleration of a point, from those of floors or oscillators: `Σ φ η` and
-    /// `Σ φ η̈ + u`.
+    /// Displacement, velocity and total acceleration of a point, from those of floors or oscillators: `Σ φ η`, `Σ φ η̇`
+    /// and `Σ φ η̈ + u`.
     #[inline(always)]
     pub(super) fn point<const N: usize>(
         &self,
         i: usize,
         block: &Column<N>,
-        x: impl Fn(usize) -> Column<N>,
-        a: impl Fn(usize) -> Column<N>,
-    ) -> [Column<N>; 2] {
-        let Some(of_modes) = &self.of_modes else { return [x(i), a(i)] };
+        of: impl Fn(usize) -> [Column<N>; 3],
+    ) -> [Column<N>; 3] {
+        let Some(of_modes) = &self.of_modes else { return of(i) };
         let (factors, with_block) = &of_modes[i];
-        let mut sums = [[0.0; N], block.map(|block| block * with_block)];
+        let mut sums = [[0.0; N], [0.0; N], block.map(|block| block * with_block)];
         for (j, factor) in factors.iter().enumerate() {
-            add(&mut sums[0], *factor, &x(j));
-            add(&mut sums[1], *factor, &a(j));
+            sums.iter_mut().zip(of(j)).for_each(|(sum, own)| add(sum, *factor, &own));
         }
         sums
     }

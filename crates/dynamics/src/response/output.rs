@@ -33,6 +33,8 @@ pub(crate) enum Output {
     Acceleration(usize),
     /// Displacement of a point over the one before it in m; of the first that over the block.
     Drift(usize),
+    /// Velocity of a point over the one before it in m/s; of the first that over the block.
+    DriftVelocity(usize),
     /// Sliding velocity of contents in m/s.
     ContentsVelocity(usize),
     /// Total acceleration of contents less the slope's pull, in m/s².
@@ -56,6 +58,7 @@ impl Output {
             // The drift of the first point is its displacement.
             Self::Drift(0) => OF_BLOCK,
             Self::Drift(i) => OF_BLOCK + 2 * points + i - 1,
+            Self::DriftVelocity(i) => OF_BLOCK + 2 * points + points.saturating_sub(1) + i,
             Self::ContentsVelocity(e) => of_contents + 2 * e,
             Self::ContentsAcceleration(e) => of_contents + 2 * e + 1,
         }
@@ -64,7 +67,7 @@ impl Output {
     /// How many a model has with so many points and contents.
     #[inline(always)]
     pub(crate) const fn count(points: usize, contents: usize) -> usize {
-        OF_BLOCK + 2 * points + points.saturating_sub(1) + 2 * contents
+        OF_BLOCK + 3 * points + points.saturating_sub(1) + 2 * contents
     }
 
     /// All of them in the order of their places.
@@ -83,6 +86,7 @@ impl Output {
             .chain((0..points).map(Self::Displacement))
             .chain((0..points).map(Self::Acceleration))
             .chain((1..points).map(Self::Drift))
+            .chain((0..points).map(Self::DriftVelocity))
             .chain((0..contents).flat_map(of_contents))
     }
 }

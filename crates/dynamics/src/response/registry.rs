@@ -237,7 +237,7 @@ const SURFACES: u8 = 44;
 const CONTENTS: u8 = 45;
 
 /// The demands in the order of the summary and of tables.
-pub static DEMANDS: [Demand; 47] = [
+pub static DEMANDS: [Demand; 49] = [
     Demand::number("peak_sliding_displacement_m", "peak sliding displacement", Length, |d, _| {
         Some(d.peak_sliding_displacement_m)
     })
@@ -324,6 +324,11 @@ pub static DEMANDS: [Demand; 47] = [
     })
     .of_storey()
     .row(STOREYS, "peak drift ratio"),
+    Demand::number("peak_drift_velocity_m_per_s", "peak drift velocity", Velocity, |d, i| {
+        d.storeys.get(i).map(|storey| storey.peak_drift_velocity_m_per_s)
+    })
+    .of_storey()
+    .row(STOREYS, "peak drift velocity"),
     Demand::number("peak_acceleration_m_per_s2", "peak acceleration", Acceleration, |d, i| {
         d.points.get(i).map(|point| point.peak_acceleration_m_per_s2)
     })
@@ -346,6 +351,11 @@ pub static DEMANDS: [Demand; 47] = [
     })
     .of_point()
     .row(STOREYS, "peak drift ratio"),
+    Demand::number("peak_drift_velocity_m_per_s", "peak drift velocity", Velocity, |d, i| {
+        d.points.get(i).map(|point| point.peak_drift_velocity_m_per_s)
+    })
+    .of_point()
+    .row(STOREYS, "peak drift velocity"),
     Demand::number("peak_base_shear_n", "peak base shear", Force, |d, _| Some(d.peak_base_shear_n))
         .row_with_storeys(30, "Peak base shear"),
     Demand::number("peak_friction_force_n", "peak friction force", Force, |d, _| {

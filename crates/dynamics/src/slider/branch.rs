@@ -1,7 +1,7 @@
 //! What is in force between ground and block on a branch of a law, and where the branch ends.
 
 use super::rate::Coefficient;
-use super::{Contact, Direction};
+use super::{Contact, Direction, Pressing};
 
 /// A stiffness and a damper between ground and block.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -32,6 +32,8 @@ pub(crate) struct SlipForce {
     pub(crate) sign: f64,
     /// `μ`.
     pub(crate) coefficient: Coefficient,
+    /// The normal force that friction follows in place of `N`.
+    pub(crate) pressing: Pressing,
 }
 
 /// What a branch adds to the linear system, by which its tables are found.

@@ -1,7 +1,7 @@
 //! Friction of one surface: which forces hold the block, and which resist it while it slides.
 
 use super::ranges::in_range;
-use super::{Direction, RateLaw};
+use super::{Direction, PressureLaw, RateLaw};
 use crate::error::ModelError;
 
 /// Static and kinetic friction of one surface, eqs (1)–(4), (8), (14) of the paper.
@@ -26,6 +26,8 @@ pub struct Friction {
     /// `μ_s` towards +x and −x.
     fixed: [f64; 2],
     kinetic: Kinetic,
+    /// How they follow the pressure: they are those at rest.
+    pressure: Option<PressureLaw>,
 }
 
 /// Kinetic friction.
@@ -53,7 +55,7 @@ impl Friction {
     /// above the static one of its direction.
     pub fn by_direction(fixed: [f64; 2], kinetic: [f64; 2]) -> Result<Self, ModelError> {
         check(fixed, kinetic)?;
-        Ok(Self { fixed, kinetic: Kinetic::Constant(kinetic) })
+        Ok(Self { fixed, kinetic: Kinetic::Constant(kinetic), pressure: None })
     }
 
     /// Static coefficients for sliding towards +x and −x, and kinetic friction by the sliding speed.
@@ -62,7 +64,23 @@ impl Friction {
     /// As [`Friction::by_direction`] for the kinetic coefficients at rest.
     pub fn by_speed(fixed: [f64; 2], kinetic: RateLaw) -> Result<Self, ModelError> {
         check(fixed, Direction::BOTH.map(|direction| kinetic.at(0.0, direction)))?;
-        Ok(Self { fixed, kinetic: Kinetic::BySpeed(kinetic) })
+        Ok(Self { fixed, kinetic: Kinetic::BySpeed(kinetic), pressure: None })
+    }
+
+    /// Friction whose coefficients, so far those at the reference pressure of a law, follow the pressure: from here on
+    /// they are those under the weight alone.
+    ///
+    /// # Errors
+    /// As [`Friction::scaled`].
+    pub fn under_pressure(&self, law: PressureLaw) -> Result<Self, ModelError> {
+        Ok(Self { pressure: Some(law), ..self.scaled(law.factor_at_rest())? })
+    }
+
+    /// How coefficients follow the pressure, where they do.
+    #[inline(always)]
+    #[must_use]
+    pub fn pressure(&self) -> Option<&PressureLaw> {
+        self.pressure.as_ref()
     }
 
     /// Static coefficient against sliding in a direction.
@@ -102,7 +120,7 @@ impl Friction {
             Kinetic::Constant(kinetic) => Kinetic::Constant(kinetic.map(|mu| factor * mu)),
             Kinetic::BySpeed(rate) => Kinetic::BySpeed(rate.scaled(factor)),
         };
-        Ok(Self { fixed: self.fixed.map(|mu| factor * mu), kinetic })
+        Ok(Self { fixed: self.fixed.map(|mu| factor * mu), kinetic, pressure: self.pressure })
     }
 }
 

@@ -4,13 +4,14 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use super::Direction;
+use super::Pressing;
 use super::branch::{Restraint, SlipForce};
 use super::rate::Coefficient;
 use crate::linear::lanes::{eight, greatest, least};
-use crate::linear::polynomial::Polynomial;
+use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, curvature_bound};
 
 /// What holds the block at rest: friction carries `low N ≤ T ≤ high N`, where
-/// `T = demand + force + of_normal N`.
+/// `T = demand + force + of_normal N`, or of the normal force that it follows in place of `N`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Hold {
     /// Force of springs and elastic stop in N.
@@ -19,6 +20,7 @@ pub(crate) struct Hold {
     pub(crate) of_normal: f64,
     /// What friction holds, over the normal force: `−μ_s⁺` and `μ_s⁻`.
     pub(super) friction: [f64; 2],
+    pub(super) pressing: Pressing,
     /// Whether a rigid stop holds what friction cannot: a push of the ground towards −x (the block
     /// leans on the stop towards +x), and one towards +x.
     pub(crate) leans: [bool; 2],
@@ -28,7 +30,8 @@ impl Hold {
     /// Friction alone, of one coefficient.
     pub(crate) fn of_friction(coefficient: f64) -> Self {
         let friction = [-coefficient, coefficient];
-        Self { force_n: 0.0, of_normal: 0.0, friction, leans: [false; 2] }
+        let pressing = Pressing::default();
+        Self { force_n: 0.0, of_normal: 0.0, friction, pressing, leans: [false; 2] }
     }
 
     /// What holds off rigid stops.
@@ -47,16 +50,18 @@ impl Hold {
             is_friction: false,
             sign: 0.0,
             coefficient: Coefficient::Linear { at_rest: 0.0, slope_s_per_m: 0.0 },
+            pressing: self.pressing,
         }
     }
 
     /// The forces that friction alone holds under a normal force.
     #[inline(always)]
     pub(crate) fn friction_n(&self, normal_n: f64) -> [f64; 2] {
-        self.friction.map(|bound| bound * normal_n)
+        let pressing_n = self.pressing.of(normal_n);
+        self.friction.map(|bound| bound * pressing_n)
     }
 
-    /// The same under eight normal forces.
+    /// The same under eight normal forces, which friction itself follows.
     #[inline(always)]
     pub(crate) fn friction_of_eight<S: Simd>(&self, simd: S, normal_n: f64x8<S>) -> [f64x8<S>; 2] {
         let [low, high] = self.friction;
@@ -84,14 +89,14 @@ impl Hold {
     #[inline(always)]
     pub(crate) fn least_n(&self, normal_n: f64) -> f64 {
         let [low, high] = self.friction;
-        least(high, -low) * normal_n
+        least(high, -low) * self.pressing.of(normal_n)
     }
 
     /// The largest force that friction alone holds; none where springs of surfaces hold any.
     pub(crate) fn largest_n(&self, normal_n: f64) -> f64 {
         let finite =
             self.friction.iter().map(|bound| bound.abs()).filter(|bound| bound.is_finite());
-        finite.fold(0.0, f64::max) * normal_n
+        finite.fold(0.0, f64::max) * self.pressing.of(normal_n)
     }
 
     /// What friction holds against sliding in a direction, over the normal force.
@@ -103,7 +108,17 @@ impl Hold {
     /// What friction holds against sliding in a direction.
     #[inline(always)]
     pub(crate) fn against_n(&self, direction: Direction, normal_n: f64) -> f64 {
-        self.size(direction) * normal_n
+        self.size(direction) * self.pressing.of(normal_n)
+    }
+
+    /// How far that departs from its chord over a part of a unit at most, under a normal force and its change over it.
+    #[inline(always)]
+    pub(crate) fn bend_n(&self, direction: Direction, normal: [f64; 2], part: f64) -> f64 {
+        if self.pressing.is_plain() {
+            return 0.0;
+        }
+        let curvature = curvature_bound(&self.pressing.series(normal));
+        0.125 * self.size(direction) * curvature * (part * part)
     }
 
     /// Whether a force can make the block slide in a direction.
@@ -117,14 +132,12 @@ impl Hold {
     pub(crate) fn distance(
         &self,
         demand: &Polynomial,
-        [normal_n, rise_n]: [f64; 2],
+        normal_n: [f64; 2],
         direction: Direction,
     ) -> Polynomial {
         let (sign, size) = (direction.sign(), self.size(direction));
-        let mut distance = demand.map(|c| sign * c);
-        distance[0] += size * normal_n;
-        distance[1] += size * rise_n;
-        distance
+        let pressing_n = self.pressing.series(normal_n);
+        core::array::from_fn(|k| sign * demand[k] + size * pressing_n[k])
     }
 
     /// Where the block rests against a rigid stop, or between two: how much of its push towards each friction cannot take,
@@ -132,13 +145,12 @@ impl Hold {
     pub(crate) fn beyond_friction(
         &self,
         asked: &Polynomial,
-        [normal_n, rise_n]: [f64; 2],
+        normal_n: [f64; 2],
     ) -> impl Iterator<Item = (f64, Polynomial)> + use<> {
+        let pressing_n = self.pressing.series(normal_n);
         let sides = [0, 1].map(|side| {
             let (sign, bound) = (if side == 0 { -1.0 } else { 1.0 }, self.friction[side]);
-            let mut beyond = asked.map(|c| sign * c);
-            beyond[0] -= sign * (bound * normal_n);
-            beyond[1] -= sign * (bound * rise_n);
+            let beyond = core::array::from_fn(|k| sign * asked[k] - sign * (bound * pressing_n[k]));
             self.leans[side].then_some((sign, beyond))
         });
         sides.into_iter().flatten()
@@ -182,18 +194,24 @@ impl Hold {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Disc {
     pub(super) of_normal: f64,
+    pub(super) pressing: Pressing,
 }
 
 impl Disc {
     /// The same for pushes times a factor.
     pub(crate) fn times(self, factor: f64) -> Self {
-        Self { of_normal: factor * self.of_normal }
+        Self { of_normal: factor * self.of_normal, ..self }
     }
 
     /// Its radius under a normal force.
     #[inline(always)]
     pub(crate) fn radius(&self, normal_n: f64) -> f64 {
-        self.of_normal * normal_n
+        self.of_normal * self.pressing.of(normal_n)
+    }
+
+    /// The part of a unit over which [`squared_radius`](Self::squared_radius) is good to rounding.
+    pub(crate) fn reach(&self, normal_n: [f64; 2]) -> f64 {
+        self.pressing.reach(normal_n)
     }
 
     /// How far a push of a size is beyond it, negative within; at the bound friction holds.
@@ -208,9 +226,14 @@ impl Disc {
     }
 
     /// The square of the radius under a normal force and its change over a unit, by powers of the part of it.
-    pub(crate) fn squared_radius(&self, [normal_n, change_n]: [f64; 2]) -> [f64; 3] {
-        let [radius, change] = [normal_n, change_n].map(|n| self.radius(n));
-        [radius * radius, 2.0 * radius * change, change * change]
+    pub(crate) fn squared_radius(&self, normal_n: [f64; 2]) -> Polynomial {
+        let radius = self.pressing.series(normal_n).map(|n| self.of_normal * n);
+        let last = if self.pressing.is_plain() { 2 } else { DEGREE };
+        let mut square = ZERO;
+        for (k, square) in square[..=last].iter_mut().enumerate() {
+            *square = (0..=k).fold(0.0, |sum, j| sum + radius[j] * radius[k - j]);
+        }
+        square
     }
 }
 
@@ -225,10 +248,10 @@ mod tests {
             assert_eq!(hold.excess_and_width_n(force_n, 8.0), [excess_n, 6.0]);
             assert_eq!(hold.gives_way(force_n, 8.0).is_some(), excess_n > 0.0);
         }
-        let disc = Disc { of_normal: 0.25 }.times(2.0);
+        let disc = Disc { of_normal: 0.25, pressing: Pressing::default() }.times(2.0);
         assert_eq!([3.0, 4.0, 5.0].map(|push| disc.excess(push, 8.0)), [-1.0, 0.0, 1.0]);
         assert_eq!((disc.margin(5.0, 8.0), disc.margin(5.0, 0.0)), (Some(0.25), None));
-        let [c, b, a] = disc.squared_radius([8.0, -4.0]);
+        let [c, b, a, ..] = disc.squared_radius([8.0, -4.0]);
         assert_eq!(c + 0.5 * (b + 0.5 * a), disc.radius(6.0) * disc.radius(6.0));
     }
 }

@@ -1,7 +1,7 @@
 //! Sliders that are the same in all horizontal directions.
 
 use super::hold::Disc;
-use super::{Bearing, Direction, RateCurve, Restoring, Slider};
+use super::{Bearing, Direction, Pressing, RateCurve, Restoring, Slider};
 
 /// What a slider does along any direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,6 +21,8 @@ pub(crate) struct Kinetic {
     gain: f64,
     /// `α` in s/m.
     rate_s_per_m: f64,
+    /// The normal force that it is of.
+    pressing: Pressing,
 }
 
 impl Kinetic {
@@ -33,6 +35,22 @@ impl Kinetic {
     /// Whether there is none at any speed.
     pub(crate) fn is_none(&self) -> bool {
         self.at_rest == 0.0 && self.is_constant()
+    }
+
+    /// Whether friction follows the normal force itself.
+    pub(crate) fn is_plain(&self) -> bool {
+        self.pressing.is_plain()
+    }
+
+    /// The normal force that friction follows, under a normal force.
+    #[inline(always)]
+    pub(crate) fn pressing_n(&self, normal_n: f64) -> f64 {
+        self.pressing.of(normal_n)
+    }
+
+    /// Friction at a speed in m/s under a normal force.
+    pub(crate) fn force(&self, speed: f64, normal_n: f64) -> f64 {
+        self.at(speed) * self.pressing.of(normal_n)
     }
 
     /// `μ_k` at a speed in m/s.
@@ -52,25 +70,29 @@ impl Kinetic {
 }
 
 impl Slider {
-    /// The slider as one that is the same in all directions.
+    /// The slider as one that is the same in all directions, with the normal force at rest.
     ///
     /// # Errors
     /// What of it is not, or does not slide in two directions.
-    pub(crate) fn isotropic(&self) -> Result<Isotropic, &'static str> {
+    pub(crate) fn isotropic(&self, normal_n: f64) -> Result<Isotropic, &'static str> {
         let Bearing::Surface { restoring, friction } = &self.bearing else {
             return Err("surfaces in series");
         };
         let [fixed, at_rest] = self.coefficients();
         let at_rest_alike = at_rest[0] == at_rest[1];
+        let pressing = Pressing::new(friction.pressure(), normal_n);
         let (kinetic, alike) = match friction.rate() {
-            None => (Kinetic { at_rest: at_rest[0], gain: 0.0, rate_s_per_m: 0.0 }, at_rest_alike),
+            None => {
+                let at_rest = at_rest[0];
+                (Kinetic { at_rest, gain: 0.0, rate_s_per_m: 0.0, pressing }, at_rest_alike)
+            }
             Some(law) => {
                 let RateCurve::Exponential { slow, fast, rate_s_per_m } = *law.curve() else {
                     return Err("friction by straight lines of the speed");
                 };
                 let [factor, other] = Direction::BOTH.map(|way| law.factor(way));
                 let gain = factor * (fast - slow);
-                (Kinetic { at_rest: at_rest[0], gain, rate_s_per_m }, factor == other)
+                (Kinetic { at_rest: at_rest[0], gain, rate_s_per_m, pressing }, factor == other)
             }
         };
         let refused = [
@@ -86,7 +108,7 @@ impl Slider {
             Restoring::Spring { stiffness_n_per_m } => (stiffness_n_per_m, 0.0),
             Restoring::Pendulum { radius_m } => (0.0, 1.0 / radius_m),
         };
-        let hold = Disc { of_normal: fixed[0] };
+        let hold = Disc { of_normal: fixed[0], pressing };
         Ok(Isotropic { hold, kinetic, stiffness_n_per_m, per_radius })
     }
 }

@@ -11,7 +11,7 @@ use super::hold::Hold;
 use super::rate::{Coefficient, RateCurve, RateLaw};
 use super::series::{SeriesState, SurfacesInSeries};
 use super::stop::{Pads, Walls};
-use super::{Bearing, Contact, Direction, Friction, Slider, StopKind};
+use super::{Bearing, Contact, Direction, Friction, Pressing, Slider, StopKind};
 
 /// Levels nearer to a rigid stop than this part of its distance are at it.
 const AT_WALL: f64 = 1e-12;
@@ -27,6 +27,8 @@ pub(crate) struct Law<'a> {
     restraint: Restraint,
     /// Radius of a pendulum whose spring follows the normal force, in m.
     radius_m: Option<f64>,
+    /// The normal force that friction follows.
+    pressing: Pressing,
     ends: Stopping,
 }
 
@@ -69,7 +71,9 @@ impl Slider {
             },
         };
         let restraint = Restraint { stiffness_n_per_m, damper_n_s_per_m: self.damper_n_s_per_m };
-        Law { bearing: &self.bearing, restraint, radius_m, ends }
+        let friction = self.bearing.friction();
+        let pressing = Pressing::new(friction.and_then(Friction::pressure), normal_n);
+        Law { bearing: &self.bearing, restraint, radius_m, pressing, ends }
     }
 }
 
@@ -81,7 +85,8 @@ impl<'a> Law<'a> {
     pub(crate) fn is_tabled(&self, varying: bool) -> bool {
         match self.bearing {
             Bearing::Surface { friction, .. } => {
-                !varying || (friction.rate().is_none() && self.radius_m.is_none())
+                let is_affine = friction.rate().is_none() && self.pressing.is_plain();
+                !varying || (is_affine && self.radius_m.is_none())
             }
             Bearing::InSeries(series) => !varying && series.surfaces().len() <= TABLED_SURFACES,
         }
@@ -266,6 +271,7 @@ impl<'a> Law<'a> {
             is_friction: self.bearing.series().is_some(),
             sign: direction.sign(),
             coefficient: self.coefficient(memory, direction),
+            pressing: self.pressing,
         };
         if let (Contact::Pressed(side), Some(pads)) = (memory.contact, self.pads()) {
             (force.restraint, force.is_pressed) = (pads.beside(self.restraint), true);
@@ -357,7 +363,7 @@ impl<'a> Law<'a> {
                 (of_normal, [-bound(Direction::Positive), bound(Direction::Negative)])
             }
         };
-        Hold { force_n, of_normal, friction, leans }
+        Hold { force_n, of_normal, friction, pressing: self.pressing, leans }
     }
 
     /// Friction over the normal force once the block begins to slide at `s`: the size of what resists
@@ -384,7 +390,7 @@ impl<'a> Law<'a> {
         direction: Direction,
         normal_n: f64,
     ) -> f64 {
-        self.resistance(memory, s, direction) * normal_n
+        self.resistance(memory, s, direction) * self.pressing.of(normal_n)
     }
 
     /// By how much that is below what holds.
@@ -396,7 +402,8 @@ impl<'a> Law<'a> {
         direction: Direction,
         normal_n: f64,
     ) -> f64 {
-        (hold.size(direction) - self.resistance(memory, s, direction)) * normal_n
+        let drop = hold.size(direction) - self.resistance(memory, s, direction);
+        drop * self.pressing.of(normal_n)
     }
 
     /// Size of the friction force while the block slides in a direction at a speed.
@@ -405,7 +412,7 @@ impl<'a> Law<'a> {
             Some(rate) => rate.at(speed, direction),
             None => friction.kinetic_coefficient(direction),
         });
-        of_surface * normal_n
+        of_surface * self.pressing.of(normal_n)
     }
 
     /// Force of spring, damper, pendulum and elastic stop against the block.
@@ -498,6 +505,6 @@ impl<'a> Law<'a> {
     pub(crate) fn largest_static_n(&self, normal_n: f64) -> f64 {
         let Some(friction) = self.bearing.friction() else { return f64::INFINITY };
         let [positive, negative] = Direction::BOTH.map(|d| friction.static_coefficient(d));
-        positive.max(negative) * normal_n
+        positive.max(negative) * self.pressing.of(normal_n)
     }
 }

@@ -32,7 +32,7 @@ use crate::linear::System;
 use crate::progress::Pulse;
 use crate::slider::{Law, TwoBranches};
 
-pub(super) use self::outputs::Shape;
+pub(super) use self::outputs::{Kept, REGISTERS, Shape};
 pub(super) use self::peaks::Candidate;
 pub(super) use self::tables::Tables;
 
@@ -55,7 +55,7 @@ pub(super) struct Shared<'r, 'a> {
     /// `s, ṡ, η, η̇`, with zeros for the structure of a rigid block.
     pub(super) x: &'r mut [f64; 4],
     /// Peaks attained so far, in the order of the outputs.
-    pub(super) peak: &'r mut [f64; 8],
+    pub(super) peak: &'r mut Kept,
     pub(super) course: &'r mut Course<'a>,
     pub(super) candidates: &'r mut Vec<Candidate>,
     pub(super) recorder: Option<&'r mut Recorder>,

@@ -263,7 +263,7 @@ impl<'a> Modal<'a> {
         let phase = &mut walk.phase;
         let shared = dense::Shared {
             x: phase.x.first_chunk_mut()?,
-            peak: &mut phase.peaks.peak.first_mut()?.0,
+            peak: phase.peaks.peak.first_chunk_mut::<{ dense::REGISTERS }>()?,
             course: &mut walk.course,
             candidates: &mut phase.candidates,
             recorder: phase.recorder.as_mut(),

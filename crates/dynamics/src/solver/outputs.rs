@@ -49,6 +49,8 @@ pub(super) trait Quantities {
     fn displacement(&self, point: usize) -> Self::Value;
     /// Displacement of a point over the one before it, which is not the first.
     fn drift(&self, point: usize) -> Self::Value;
+    /// Velocity of a point over the one before it; of the first that over the block.
+    fn drift_velocity(&self, point: usize) -> Self::Value;
     /// Acceleration of a point.
     fn acceleration(&self, point: usize) -> Self::Value;
     /// Sliding velocity and acceleration of contents.
@@ -78,6 +80,7 @@ impl Output {
             Self::Displacement(i) | Self::Drift(i @ 0) => motion.displacement(i),
             Self::Acceleration(i) => motion.acceleration(i).less(slope),
             Self::Drift(i) => motion.drift(i),
+            Self::DriftVelocity(i) => motion.drift_velocity(i),
             Self::ContentsVelocity(e) => {
                 let [velocity, _] = motion.contents(e);
                 velocity
@@ -257,6 +260,12 @@ impl Quantities for Rows<'_> {
 
     fn drift(&self, point: usize) -> OutputRow {
         self.of_eta(self.system.point_drift(point))
+    }
+
+    fn drift_velocity(&self, point: usize) -> OutputRow {
+        let (mut row, n) = (self.zero(), self.system.modes());
+        row.state[2 + n..2 + 2 * n].copy_from_slice(self.system.point_drift(point));
+        row
     }
 
     /// `−Φ_i f`, and with the block what of the point's motion is the block's.

@@ -221,6 +221,10 @@ impl Quantities for AtSample<'_> {
         dot(self.program.system.drift(storey), &self.step.eta)
     }
 
+    fn drift_velocity(&self, storey: usize) -> f64 {
+        dot(self.program.system.drift(storey), &self.step.eta_dot)
+    }
+
     fn acceleration(&self, storey: usize) -> f64 {
         -dot(self.program.system.floor(storey), &self.step.f)
     }

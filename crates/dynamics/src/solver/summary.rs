@@ -33,6 +33,7 @@ pub(super) fn of_peaks(
             peak_displacement_m: peak(Output::Displacement(i)),
             peak_drift_m,
             peak_drift_ratio: model.rise_m(i).map(|rise_m| peak_drift_m / rise_m),
+            peak_drift_velocity_m_per_s: peak(Output::DriftVelocity(i)),
         }
     };
     let points = (0..model.points()).map(of_point).collect();

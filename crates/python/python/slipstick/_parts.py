@@ -68,6 +68,9 @@ class Slider(Part):
         Coefficient of friction while the block slides; at rest at most the static one. Needed, but with
         surfaces in series.
         Such as ``"6 %"``.
+    pressure
+        How both coefficients of friction follow the pressure: they fall as it grows, μ(p) = μ
+        (p/reference)^(-exponent).
     static_ratio
         Static over kinetic friction of surfaces in series, at least 1; default 1.
         Such as ``"6 %"``.
@@ -118,6 +121,7 @@ class Slider(Part):
         *,
         static_friction: SupportsFloat | str | Mapping[str, Any] | None = None,
         kinetic_friction: SupportsFloat | str | Mapping[str, Any] | None = None,
+        pressure: Mapping[str, Any] | None = None,
         static_ratio: SupportsFloat | str | None = None,
         surface: Sequence[Any] | None = None,
         triple: Mapping[str, Any] | None = None,

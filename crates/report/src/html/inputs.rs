@@ -1,5 +1,6 @@
 //! What went in: model, record, files, command; and what the model leaves out.
 
+use slipstick::model::Model;
 use slipstick::response::Method;
 
 use super::{name_table, table_head};
@@ -135,15 +136,7 @@ pub fn assumptions(out: &mut Markup, report: &Report) {
         "Displacements and angles are small: geometry does not change, and the structure is linear \
          (no yielding, no second-order effects)."
             .to_owned(),
-        if model.slider().rate().is_some() {
-            "Friction depends on whether, which way and how fast the block slides, not on pressure, \
-             temperature, wear or time at rest."
-                .to_owned()
-        } else {
-            "Friction is Coulomb's: it depends on whether and which way the block slides, not on \
-             velocity, pressure, temperature, wear or time at rest."
-                .to_owned()
-        },
+        friction(model),
         if model.slider().series().is_some() {
             "Each surface has its own radius and friction; displacements are small beside the radii."
                 .to_owned()
@@ -179,4 +172,22 @@ pub fn assumptions(out: &mut Markup, report: &Report) {
         out.element("li", line).raw("\n");
     }
     out.raw("</ul>\n</section>\n");
+}
+
+/// What friction depends on, and what not.
+fn friction(model: &Model) -> String {
+    let follows = [
+        ("velocity", model.slider().rate().is_some()),
+        ("pressure", model.slider().pressure().is_some()),
+    ];
+    let named = |wanted: bool| {
+        follows.iter().filter(move |(_, follows)| *follows == wanted).map(|(what, _)| *what)
+    };
+    let besides: String = named(true).map(|what| format!(", on {what}")).collect();
+    let not: String = named(false).map(|what| format!("{what}, ")).collect();
+    let law = if besides.is_empty() { "is Coulomb's: it depends" } else { "depends" };
+    format!(
+        "Friction {law} on whether and which way the block slides{besides}, not on {not}temperature, \
+         wear or time at rest."
+    )
 }

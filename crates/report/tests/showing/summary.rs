@@ -27,6 +27,7 @@ const PROMISED: &str = "
     block.peak_acceleration_m_per_s2 n, storeys l,
     storeys.0.peak_acceleration_m_per_s2 n, storeys.0.peak_displacement_m n,
     storeys.0.peak_drift_m n, storeys.1.peak_drift_ratio n?,
+    storeys.0.peak_drift_velocity_m_per_s n,
     peak_base_shear_n n, peak_friction_force_n n, peak_slider_force_n n,
     base_shear_coefficient n, friction_coefficient_used n, slider_force_coefficient n,
     gap_ratio n?, overturning_ratio n?, contact_loss_s l, warnings l,

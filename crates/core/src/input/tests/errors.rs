@@ -25,7 +25,7 @@ fn unknown_keys_at_any_depth() {
     assert_eq!(
         changed("spring = ", "sprng = "),
         "m.toml:10:1: slider.sprng: expected one of the keys static_friction, kinetic_friction, \
-         static_ratio, surface, triple, spring, radius, period, damper, damping_ratio, tilt, asymmetry, gap, stop, bounds, found \"sprng\"; \
+         pressure, static_ratio, surface, triple, spring, radius, period, damper, damping_ratio, tilt, asymmetry, gap, stop, bounds, found \"sprng\"; \
          nearest is \"spring\""
     );
     assert_eq!(
@@ -575,6 +575,21 @@ fn devices_that_cannot_be() {
                 "m.toml:5:39: {path}.slow: expected only one of positive, slow, velocity, found \
                  \"slow\" besides \"positive\""
             ),
+        ),
+        (
+            model(&format!(
+                "{plain}pressure = {{ at_rest = \"2 MPa\", reference = \"2 MPa\", exponent = 1 }}"
+            )),
+            "m.toml:6:65: slider.pressure.exponent: expected a number from 0 to below 1, found 1"
+                .into(),
+        ),
+        (
+            model(&format!(
+                "{plain}pressure = {{ at_rest = \"2 MPa\", reference = \"2 kN\", exponent = 0.2 }}"
+            )),
+            "m.toml:6:45: slider.pressure.reference: expected a pressure, such as \"20 MPa\", found \
+             a force, \"2 kN\""
+                .into(),
         ),
         (
             model(&format!("{plain}stop = {{ gap = \"0.1 m\", restitution = 1.5 }}")),

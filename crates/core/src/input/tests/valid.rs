@@ -17,6 +17,21 @@ use crate::slider::{RateCurve, RateLaw, Surface, SurfacesInSeries};
 use crate::units::Dimension;
 
 #[test]
+fn friction_by_pressure_is_that_under_the_weight() {
+    let text = "[block]\nmass = \"31 t\"\n[slider]\nstatic_friction = 0.1\nkinetic_friction = 0.05\n\
+                pressure = { at_rest = \"45 MPa\", reference = \"20 N/mm2\", exponent = 0.2 }\n";
+    let model = read(text, &[]).unwrap().model;
+    let factor = libm::pow(45.0 / 20.0, -0.2);
+    let law = model.slider().pressure().unwrap();
+    assert_eq!([law.at_rest_pa(), law.reference_pa(), law.exponent()], [45e6, 20e6, 0.2]);
+    for (found, of_reference) in [(model.static_friction(), 0.1), (model.kinetic_friction(), 0.05)]
+    {
+        let off = found.map(|mu| (mu / (factor * of_reference) - 1.0).abs());
+        assert!(off.iter().all(|off| *off < 1e-15), "{found:?}");
+    }
+}
+
+#[test]
 fn full_example() {
     let analysis = read(FULL, &[]).unwrap();
     assert_eq!(analysis.name.as_deref(), Some("Section 6 mock-up"));

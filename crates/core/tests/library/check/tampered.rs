@@ -453,6 +453,8 @@ fn every_changed_demand_shows() {
             changed(&|d| d.storeys[i].peak_drift_m *= 1.0 - 1e-7, "a drift");
             changed(&|d| d.storeys[i].peak_acceleration_m_per_s2 *= 1.0 + 1e-7, "an acceleration");
             changed(&|d| d.storeys[i].peak_drift_ratio = None, "no drift ratio");
+            let faster = |d: &mut Demands| d.storeys[i].peak_drift_velocity_m_per_s *= 1.0 + 1e-7;
+            changed(&faster, "a drift velocity");
             let ratio = |d: &mut Demands| d.storeys[i].peak_drift_ratio.as_mut().map(|r| *r *= 1.1);
             changed(&|d| _ = ratio(d), "a drift ratio");
         }

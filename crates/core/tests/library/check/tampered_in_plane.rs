@@ -268,7 +268,7 @@ fn changed_model_shows() {
 /// Changes demands up and down; those that are looked at are chosen by the numbers of system, demand, view and sign.
 fn changed_demands_show(looked_at: fn(usize, usize, usize, usize) -> bool) {
     type Number = fn(&mut Demands) -> Option<&mut f64>;
-    let numbers: [Number; 20] = [
+    let numbers: [Number; 21] = [
         |d| Some(&mut d.peak_sliding_displacement_m),
         |d| Some(&mut d.max_sliding_displacement_m),
         |d| Some(&mut d.min_sliding_displacement_m),
@@ -284,6 +284,7 @@ fn changed_demands_show(looked_at: fn(usize, usize, usize, usize) -> bool) {
         |d| Some(&mut d.storeys.last_mut()?.peak_acceleration_m_per_s2),
         |d| Some(&mut d.storeys.last_mut()?.peak_displacement_m),
         |d| Some(&mut d.storeys.last_mut()?.peak_drift_m),
+        |d| Some(&mut d.storeys.last_mut()?.peak_drift_velocity_m_per_s),
         |d| d.gap_ratio.as_mut(),
         |d| d.closest_stop.as_mut(),
         |d| Some(&mut d.peak_sliding_displacement_time_s),

@@ -44,7 +44,7 @@ impl<'a> Judge<'a, Line<'a>> {
         normal: f64,
     ) -> StickDemand {
         let Some(contents) = i.checked_sub(1).map(|e| &self.structure().contents[e]) else {
-            let [low, high] = hold;
+            let ([low, high], normal) = (hold, self.law.pressed(normal));
             let low = if low <= -UNBOUNDED { f64::NEG_INFINITY } else { low * normal };
             let high = if high >= UNBOUNDED { f64::INFINITY } else { high * normal };
             return StickDemand { demand: value, low, high };
@@ -60,7 +60,9 @@ impl<'a> Judge<'a, Line<'a>> {
             None => self.law.most(),
             Some(c) => c.static_friction * c.mass_kg / self.structure().total_kg,
         };
-        load.rounding(self.ground.blur(), mass_kg, mu)
+        let normal = load.normal_rounding(self.ground.blur());
+        let normal = if i == 0 { self.law.pressed_rounding(load.normal, normal) } else { normal };
+        load.rounding_of_mass(self.ground.blur(), mass_kg) + mu * normal
     }
 
     /// Between which `T/N` the slider is held after what it did before a knot; `leans` where rigid stops hold

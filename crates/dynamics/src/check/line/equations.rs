@@ -7,7 +7,7 @@
 //! block     M1 B = T + 1ᵀ(K q + C q̇) + Σ p − (K1 + N/R) s − C1 ṡ − (k s + c ṡ − shift)      in stick B = a
 //! floors    M (q̈ + 1 B) = −(K q + C q̇) + p
 //! contents  m (r̈ + acceleration of the floor) = −p; where they stick, their mass is the floor's
-//! slip      T = N (p₀ − p₁ s − p₂ ṡ), or N p₀ μ(|ṡ|)
+//! slip      T = N (p₀ − p₁ s − p₂ ṡ), or N p₀ μ(|ṡ|); by pressure of N (N/N₀)^(−m) in place of N
 //! stick     T = M1 a − 1ᵀ(K q + C q̇) − Σ p + (K1 + N/R) s + k s − shift                      eqs (8), (14)
 //! ```
 //!
@@ -41,8 +41,11 @@ pub(super) struct Drive<'a> {
     pub(super) drag: f64,
     /// Whether `T` is `N p₀ μ(|ṡ|)`.
     pub(super) by_speed: bool,
-    /// Least and largest demand that friction takes, each at the start and at the end; a rigid stop takes the rest.
-    pub(super) taken: [[f64; 2]; 2],
+    /// `N`, likewise, and `p₀`.
+    pub(super) normal: [f64; 2],
+    pub(super) friction: f64,
+    /// Least and largest demand over the normal force that friction takes; a rigid stop takes the rest.
+    pub(super) taken: [f64; 2],
 }
 
 impl Drive<'_> {
@@ -132,6 +135,12 @@ impl LineEquations<'_> {
         self.sliding(drive, drive.loads[FRICTION_LOAD][end], w) - follows
     }
 
+    /// What coefficients of friction are multiplied by, at parts of the step.
+    #[inline(always)]
+    fn pressed<const N: usize>(&self, drive: &Drive<'_>, parts: &Column<N>) -> Column<N> {
+        linear(drive.normal, parts).map(|normal| self.law.pressed(normal))
+    }
+
     /// `T` in a slip at some instants, but for what follows `s`.
     #[inline(always)]
     fn sliding_forces<const N: usize>(
@@ -140,7 +149,10 @@ impl LineEquations<'_> {
         parts: &Column<N>,
         w: &Column<N>,
     ) -> Column<N> {
-        let mut force = drive.load(FRICTION_LOAD, parts);
+        let mut force = match self.law.follows_pressure() {
+            true => self.pressed(drive, parts).map(|pressed| drive.friction * pressed),
+            false => drive.load(FRICTION_LOAD, parts),
+        };
         if drive.by_speed || drive.drag != 0.0 {
             force = core::array::from_fn(|i| self.sliding(drive, force[i], w[i]));
         }
@@ -230,7 +242,8 @@ impl LineEquations<'_> {
         let (s, bodies) = (self.structure, &acting.bodies);
         let n = s.masses_kg.len();
         let shift = drive.load(SHIFT, parts);
-        let taken = drive.taken.map(|taken| linear(taken, parts));
+        let pressed = self.pressed(drive, parts);
+        let taken = drive.taken.map(|taken| pressed.map(|pressed| taken * pressed));
         let (is_rigid, in_series) = (self.law.restitution().is_some(), self.law.series.is_some());
         let (mut stop, mut slider, mut friction) = ([0.0; N], [0.0; N], acting.friction);
         for i in 0..N {
@@ -246,7 +259,7 @@ impl LineEquations<'_> {
         outputs.each(
             [&v[0], &slider, &friction, &acting.shear, &stop],
             (self.slope, &bodies[0]),
-            |point| outputs.point(point, &bodies[0], |j| x[1 + j], |j| bodies[1 + j]),
+            |point| outputs.point(point, &bodies[0], |j| [x[1 + j], v[1 + j], bodies[1 + j]]),
             |e| [v[1 + n + e], bodies[1 + n + e]],
             |g, value| out[g] = value,
         );

@@ -29,7 +29,7 @@ pub(super) struct IntervalLaw<'m> {
     /// Between which `T/N` friction takes the demand; a rigid stop takes the rest.
     taken: [f64; 2],
     /// Sum of the coefficients of what slides.
-    slides: f64,
+    slides: [f64; 2],
 }
 
 /// A straight piece of friction by speed: `p₀, p₂`, and between which speeds.
@@ -45,6 +45,7 @@ pub(super) struct LinePath {
     fastest: Vec<f64>,
     /// Largest rounding of `N`.
     normal_rounding: f64,
+    pressed_rounding: f64,
     /// Interface by interface, the largest speed against the direction claimed, and the force that it says is wrong.
     astray: Vec<[f64; 2]>,
 }
@@ -57,6 +58,7 @@ impl LinePath {
             step: LineStep::new(structure, outputs),
             fastest: vec![0.0; structure.degrees()],
             normal_rounding: 0.0,
+            pressed_rounding: 0.0,
             astray: vec![[0.0; 2]; 1 + structure.contents.len()],
         }
     }
@@ -89,7 +91,7 @@ impl<'a> Judge<'a, Line<'a>> {
         let s = self.h.sliding_displacement_m[k];
         let (mut friction, mut hold) = ([0.0; 2], [0.0; 2]);
         let mut taken = BOUNDLESS;
-        let mut slides = 0.0;
+        let mut slides = [0.0; 2];
         match modes[0] {
             Mode::Stick => {
                 let free = self.law.hold(self.h.surface_displacements(k));
@@ -102,12 +104,12 @@ impl<'a> Judge<'a, Line<'a>> {
                     Some(sliding) => sliding.friction(s),
                     None => [self.law.sliding_load(direction), 0.0],
                 };
-                slides += self.law.most();
+                slides[0] = self.law.most();
             }
         }
         for (mode, contents) in modes[1..].iter().zip(&self.structure().contents) {
             if *mode != Mode::Stick {
-                slides += contents.kinetic_friction;
+                slides[1] += contents.kinetic_friction;
             }
         }
         let push = self.law.push(self.contact(k));
@@ -127,8 +129,9 @@ impl<'a> Judge<'a, Line<'a>> {
         let per_kg = self.structure().total_kg;
         let contents = in_force.modes[1..].iter().zip(&self.structure().contents);
         let pulls = contents.map(|(mode, c)| of(mode.sign() * c.kinetic_friction / per_kg));
-        let own =
-            [loads.map(|load| load.a), of(piece.map_or(p0, |piece| piece.line[0])), [shift; 2]];
+        let friction = piece.map_or(p0, |piece| piece.line[0]);
+        let slides = loads.map(|load| self.law.pressed(load.normal) * friction);
+        let own = [loads.map(|load| load.a), slides, [shift; 2]];
         Drive {
             modes: in_force.modes,
             loads: own.into_iter().chain(pulls).collect(),
@@ -138,7 +141,9 @@ impl<'a> Judge<'a, Line<'a>> {
             by_speed: in_force.modes[0] != Mode::Stick
                 && self.law.rate.is_some()
                 && piece.is_none(),
-            taken: in_force.taken.map(of),
+            normal: loads.map(|load| load.normal),
+            friction,
+            taken: in_force.taken,
         }
     }
 
@@ -197,7 +202,7 @@ impl<'a> Judge<'a, Line<'a>> {
 
     /// Starts a path from what is stored at a knot; what sticks has no velocity.
     fn start(&self, path: &mut LinePath, k: usize, modes: &[Mode]) {
-        (path.knot, path.normal_rounding) = (k, 0.0);
+        (path.knot, path.normal_rounding, path.pressed_rounding) = (k, 0.0, 0.0);
         path.fastest.fill(0.0);
         path.astray.fill([0.0; 2]);
         for degree in 0..path.fastest.len() {
@@ -227,6 +232,9 @@ impl<'a> Judge<'a, Line<'a>> {
         }
         let rounding = stretch.loads[0].normal_rounding(self.ground.blur());
         path.normal_rounding = path.normal_rounding.max(rounding);
+        let least = stretch.loads[0].normal.min(stretch.loads[1].normal);
+        let rounding = self.law.pressed_rounding(least, rounding);
+        path.pressed_rounding = path.pressed_rounding.max(rounding);
         if is_first {
             if !self.ground.is_at_sample(stretch.from_s) {
                 let rounding = self.rounding(0, self.structure().total_kg, &stretch.loads[0]);
@@ -273,7 +281,7 @@ impl<'a> Judge<'a, Line<'a>> {
         if !drive.sticks(0) {
             let state = [h.sliding_displacement_m[k], h.sliding_velocity_m_per_s[k]];
             let own = self.axes.stepper.equations.stored_sliding(drive, end, state);
-            let off = (force - own).abs() - most * path.normal_rounding;
+            let off = (force - own).abs() - most * path.pressed_rounding;
             f.excess = larger(f.excess, excess(off));
         }
         for (e, contents) in s.contents.iter().enumerate().filter(|(e, _)| !drive.sticks(1 + e)) {
@@ -289,7 +297,7 @@ impl<'a> Judge<'a, Line<'a>> {
             let own = |output: usize| path.step.outputs[output][point];
             let of_block = s.block_kg * (own(BLOCK) - h.block_acceleration_m_per_s2[k]).abs();
             let of_demand = if drive.sticks(0) { (own(FRICTION) - force).abs() } else { 0.0 };
-            let rounding = s.total_kg * drift + most * path.normal_rounding;
+            let rounding = s.total_kg * drift + most * path.pressed_rounding;
             let off = larger(of_block, of_demand) - rounding;
             f.force[0] = larger(f.force[0], excess(off));
             f.force[1] = larger(f.force[1], own(FRICTION));
@@ -425,7 +433,8 @@ impl<'a> Judge<'a, Line<'a>> {
         let end = |column: &Column<POINTS>| column[POINTS - 1];
         let length_s = self.h.time_s[k + 1] - self.h.time_s[k];
         // What the rounding of N makes of velocities, places and energies.
-        let force = in_force.slides * path.normal_rounding;
+        let [own, of_contents] = in_force.slides;
+        let force = own * path.pressed_rounding + of_contents * path.normal_rounding;
         let drift = self.take_drift(force / s.least_kg(), length_s);
         let moved = |i| {
             let at = s.degree_of(i);

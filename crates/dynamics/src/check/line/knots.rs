@@ -182,11 +182,12 @@ impl<'a> Judge<'a, Line<'a>> {
             let slider = if held { 0.0 } else { friction - (spring + damper) - stop };
             let [shear] = s.base_shear(q, v);
             let total = |j: usize| [h.storey_acceleration_m_per_s2[k * n + j] + slope];
+            let floor = |j: usize| [q[j], v[j], total(j)];
             let (attained, block) = (&mut self.axes.attained, [block + slope]);
             self.outputs.each(
                 [&[w], &[slider], &[friction], &[shear], &[stop]],
                 (slope, &block),
-                |i| self.outputs.point(i, &block, |j| q[j], total),
+                |i| self.outputs.point(i, &block, floor),
                 |e| {
                     let [_, velocity, acceleration] = h.contents_state(k, e);
                     [[velocity], [acceleration + slope]]

@@ -148,7 +148,8 @@ impl<'a> LineStepper<'a> {
 
     /// The place of the map of a step, which is made where there is room.
     fn map(&mut self, drive: &Drive<'_>, step_s: f64) -> Option<usize> {
-        if drive.by_speed || drive.rise[0] != drive.rise[1] {
+        let follows_pressure = self.equations.law.follows_pressure();
+        if drive.by_speed || follows_pressure || drive.rise[0] != drive.rise[1] {
             return None;
         }
         let known = self.maps.iter().position(|map| map.is_of(drive, step_s));
@@ -291,7 +292,9 @@ mod tests {
                     rise: [90.0; 2],
                     drag: 6.0,
                     by_speed: false,
-                    taken: [[0.0; 2]; 2],
+                    normal: [0.0; 2],
+                    friction: 0.0,
+                    taken: [0.0; 2],
                 };
                 let [mapped, solved] = [Some(step_s), None].map(|usual_s| {
                     let mut step = LineStep::new(&structure, outputs.len());

@@ -248,7 +248,8 @@ impl<'a> PlaneFrame<'a> {
 
     /// `f = μ_k N/M1` at a sliding speed, and its slope.
     pub(super) fn slowing_and_slope(&self, normal: f64, speed: f64) -> [f64; 2] {
-        self.law.kinetic_at(speed).map(|mu| mu * normal / self.block_kg)
+        let pressed = self.law.pressed(normal);
+        self.law.kinetic_at(speed).map(|mu| mu * pressed / self.block_kg)
     }
 
     /// `f = μ_k N/M1` at a sliding speed.
@@ -275,7 +276,7 @@ impl<'a> PlaneFrame<'a> {
 
     /// `μ_s N/M1`.
     pub(super) fn holding(&self, loads: &Loads) -> f64 {
-        self.fixed * loads[0].normal / self.block_kg
+        self.fixed * self.law.pressed(loads[0].normal) / self.block_kg
     }
 
     /// `K q + C q̇`, floor by floor, and all that acts on the block.

@@ -96,8 +96,10 @@ impl<'a> PlaneJudge<'a> {
     /// What the rounding of `N` makes of the force on the block.
     fn normal_drift(&self, state: &State, loads: &Loads) -> f64 {
         let frame = self.frame();
-        let per_n = frame.most + frame.curvature_per_m * norm([state.x[0], state.x[1]]);
-        per_n * loads[0].normal_rounding(self.ground.blur())
+        let normal_n = loads[0].normal_rounding(self.ground.blur());
+        let pressed_n = self.law.pressed_rounding(loads[0].normal, normal_n);
+        let follows = frame.curvature_per_m * norm([state.x[0], state.x[1]]);
+        frame.most * pressed_n + follows * normal_n
     }
 
     /// Compares the end of the path with what is stored there.
@@ -228,7 +230,9 @@ impl<'a> PlaneJudge<'a> {
             self.pulse.beat(256 + 64 * self.frame().degrees() as u32)?;
             let step = self.axes.stepper.solve(&path.state, stretch.part(t, step_s), true);
             let bearable = self.bearable();
-            if let Some(step) = step.filter(|s| s.tail <= TAIL && s.defect() <= bearable) {
+            let stands =
+                |s: &Step| s.tail <= TAIL && s.defect() <= bearable || s.pushes() <= bearable;
+            if let Some(step) = step.filter(|step| stands(step)) {
                 return Ok(Some(step));
             }
             step_s *= 0.5;

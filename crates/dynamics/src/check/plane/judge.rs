@@ -2,7 +2,7 @@
 
 use super::super::demands::{Comparison, Rounding};
 use super::super::energy::Books;
-use super::super::ground::{Ground, Load, nearest};
+use super::super::ground::{Ground, nearest};
 use super::super::judge::{Directions, Judge, JudgeInput, Run, Sizes};
 use super::super::law::StickDemand;
 use super::super::structure::{excess, larger};
@@ -154,16 +154,20 @@ impl<'a> PlaneJudge<'a> {
 
     /// What a block at rest is asked for, and the rounding of it. All slips are called positive: `T = −|p| M1`.
     pub(super) fn asked(&self, push: Pair, loads: &Loads) -> (StickDemand, f64) {
-        let (demand, high) =
-            (-self.frame().block_kg * norm(push), self.frame().fixed * loads[0].normal);
+        let (demand, high) = (
+            -self.frame().block_kg * norm(push),
+            self.frame().fixed * self.law.pressed(loads[0].normal),
+        );
         (StickDemand { demand, low: -high, high }, self.rounding(loads))
     }
 
     /// What the rounding of times makes of what a block at rest is asked for, less what holds it.
     pub(super) fn rounding(&self, loads: &Loads) -> f64 {
         let blur = self.ground.blur();
-        let table = |load: &Load, mu| load.rounding(blur, self.frame().block_kg, mu);
-        table(&loads[0], self.frame().fixed) + table(&loads[1], 0.0)
+        let normal = loads[0].normal_rounding(blur);
+        let pressed = self.law.pressed_rounding(loads[0].normal, normal);
+        let table = loads.iter().map(|load| load.rounding_of_mass(blur, self.frame().block_kg));
+        table.sum::<f64>() + self.frame().fixed * pressed
     }
 
     /// All that acts in a state.
@@ -209,7 +213,8 @@ impl<'a> PlaneJudge<'a> {
                 Some(u) => norm([0, 1].map(|i| friction[i] + slid * u[i])),
                 None => (norm(friction) - slid).abs(),
             };
-            side.excess = excess(off - frame.most * normal_n);
+            let pressed_n = self.law.pressed_rounding(loads[0].normal, normal_n);
+            side.excess = excess(off - frame.most * pressed_n);
         }
         let inertia = frame.inertia(block);
         let balance = [0, 1].map(|i| inertia[i] - base[i] + spring[i] + damper[i] - friction[i]);

@@ -127,13 +127,16 @@ impl Tracked<'_> {
         });
         let [block, slider, friction] = acting.on_block(frame, directions.as_ref());
         let of_part = |part: usize, i: usize| -acting.floors[part][i] / frame.masses_kg[part];
-        // Displacement and acceleration of a point, along x and along y.
+        // Displacement, velocity and acceleration of a point, along x and along y.
         let of_modes = |point: &PointOfModes| {
-            let mut of = [[[0.0; N]; 2]; 2];
+            let mut of = [[[0.0; N]; 3]; 2];
             for i in 0..N {
                 let q = point.vector(|j| x[2 + j][i], [0.0; 2]);
+                let rate = point.vector(|j| v[2 + j][i], [0.0; 2]);
                 let total = point.vector(|j| of_part(j, i), pair(&block, i));
-                (0..2).for_each(|axis| (of[axis][0][i], of[axis][1][i]) = (q[axis], total[axis]));
+                for (axis, of) in of.iter_mut().enumerate() {
+                    (of[0][i], of[1][i], of[2][i]) = (q[axis], rate[axis], total[axis]);
+                }
             }
             of
         };
@@ -147,7 +150,8 @@ impl Tracked<'_> {
                     Some(points) => points[point][axis],
                     None => {
                         let part = 2 * point + axis;
-                        [x[2 + part], core::array::from_fn(|i| of_part(part, i))]
+                        let total = core::array::from_fn(|i| of_part(part, i));
+                        [x[2 + part], v[2 + part], total]
                     }
                 },
                 |_| [[0.0; N]; 2],

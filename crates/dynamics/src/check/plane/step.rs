@@ -228,6 +228,11 @@ impl Step {
         }
     }
 
+    /// What all of its friction makes of a velocity at most, in m/s.
+    pub(super) fn pushes(&self) -> f64 {
+        self.stretch.step_s * self.sharpest
+    }
+
     /// The defect of the block's velocity at the end, about.
     pub(super) fn defect(&self) -> f64 {
         self.stretch.step_s * self.sharpest * self.tail * self.tail

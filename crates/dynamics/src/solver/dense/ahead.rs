@@ -1,10 +1,12 @@
 //! A run ahead: its state, and what its steps share.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{f64x4, f64x8, mask64x4};
+use fearless_simd::{f64x4, f64x8};
 
-use super::lanes::{BATCH, Four, combine4, combine8, four, larger, of_storey4, times4, times8};
-use super::outputs::{ACCELERATION, DISPLACEMENT};
+use super::lanes::{Abreast, BATCH, Five, Four, combine4, combine8, of_storey4, times4, times8};
+use super::outputs::{
+    ACCELERATION, BEHIND, DISPLACEMENT, RATE, Registers, each, kept, larger_sizes, loaded,
+};
 use super::tables::{Phase, Row};
 use super::{Dense, Shared};
 use crate::error::SolveError;
@@ -23,10 +25,10 @@ pub(super) struct Ahead<'r, 'a, S: Simd> {
     pub(super) of: &'r Dense<'a>,
     pub(super) shared: Shared<'r, 'a>,
     /// Peaks attained so far; those of `shared` are behind.
-    pub(super) peak: f64x8<S>,
+    pub(super) peak: Registers<S>,
     /// Between these values of the gates no output passes its peak.
-    pub(super) low: f64x4<S>,
-    pub(super) high: f64x4<S>,
+    pub(super) low: Abreast<S>,
+    pub(super) high: Abreast<S>,
     /// The same in stick of friction and slider force; infinite where the static bounds keep them.
     pub(super) most_friction: f64,
     pub(super) most_slider: f64,
@@ -47,11 +49,11 @@ impl<'r, 'a, S: Simd> Ahead<'r, 'a, S> {
         let mut ahead = Self {
             simd,
             of,
-            peak: f64x8::load_array(simd, *shared.peak),
+            peak: loaded(simd, shared.peak),
             hold: shared.course.slider.hold(0.0),
             shared,
-            low: four(simd, 0.0),
-            high: four(simd, 0.0),
+            low: Five::ZERO.load(simd),
+            high: Five::ZERO.load(simd),
             most_friction: 0.0,
             most_slider: 0.0,
             slope: of.tables.shape.slope.abs(),
@@ -90,7 +92,7 @@ impl<'r, 'a, S: Simd> Ahead<'r, 'a, S> {
     /// Hands the peaks over.
     #[inline(always)]
     pub(super) fn hand_over(&mut self) {
-        *self.shared.peak = self.peak.to_array();
+        *self.shared.peak = kept(self.peak);
     }
 
     /// Whether a slip has just started, or a stop is still to be decided.
@@ -185,20 +187,28 @@ impl<'r, 'a, S: Simd> Ahead<'r, 'a, S> {
 
     /// The gates in a state under an input.
     #[inline(always)]
-    pub(super) fn gates<const SLIP: bool>(&self, x: f64x4<S>, input: f64) -> f64x4<S> {
+    pub(super) fn gates<const SLIP: bool>(&self, x: f64x4<S>, input: f64) -> Abreast<S> {
         let (simd, gates) = (self.simd, &self.phase::<SLIP>().gates);
         let by_input = times4(simd, &gates.of_input, input);
-        if SLIP {
+        let four = if SLIP {
             combine4(simd, &gates.columns, x) + by_input
         } else {
             of_storey4(simd, &gates.columns, x) + by_input
-        }
+        };
+        Abreast { four, fifth: x.as_array()[3] }
     }
 
-    /// Whether the gates stay within their limits by a slack.
+    /// A bit for each gate that may not stay within its limits by a slack.
     #[inline(always)]
-    pub(super) fn within(&self, gates: f64x4<S>, slack: f64x4<S>) -> mask64x4<S> {
-        gates.simd_ge(self.low + slack) & gates.simd_le(self.high - slack)
+    pub(super) fn open(&self, gates: Abreast<S>, slack: Abreast<S>) -> u64 {
+        let within = self.low.plus(slack).within(gates) & gates.within(self.high.less(slack));
+        !within & ((1 << BEHIND.len()) - 1)
+    }
+
+    /// Whether all do.
+    #[inline(always)]
+    pub(super) fn are_within(&self, gates: Abreast<S>, slack: Abreast<S>) -> bool {
+        self.low.plus(slack).is_within(gates) && gates.is_within(self.high.less(slack))
     }
 
     /// Takes the outputs of sliding at the present for attained: friction force and slider force have their
@@ -209,7 +219,7 @@ impl<'r, 'a, S: Simd> Ahead<'r, 'a, S> {
         if mode != Mode::Stick && !self.is_due() {
             let x = *self.shared.x;
             let outputs = self.of.tables.slip.outputs.at(self.simd, x, self.force_n(mode));
-            self.peak = larger(self.peak, outputs.abs());
+            self.peak = larger_sizes(self.peak, outputs);
             self.set_limits();
         }
     }
@@ -219,21 +229,23 @@ impl<'r, 'a, S: Simd> Ahead<'r, 'a, S> {
     pub(super) fn set_limits(&mut self) {
         let (simd, tables) = (self.simd, self.of.tables);
         let (storey, shape, slope) = (&tables.storey, tables.shape.floor, tables.shape.slope);
-        let peak = self.peak.to_array();
-        let mut low = [f64::NEG_INFINITY; 4];
-        let mut high = [f64::INFINITY; 4];
+        let peak = each(&kept(self.peak));
+        let mut low = [f64::NEG_INFINITY; 5];
+        let mut high = [f64::INFINITY; 5];
         (low[0], high[0]) = (-peak[output::VELOCITY], peak[output::VELOCITY]);
         if shape > 0.0 {
-            // Φ η is the displacement, L·f the base shear, −Φ f − g sin θ the floor's acceleration.
+            // Φ η is the displacement, Φ η̇ the velocity, L·f the base shear, −Φ f − g sin θ the floor's acceleration.
             let per_shape = 1.0 / shape;
             high[1] = peak[DISPLACEMENT] * per_shape;
             low[1] = -high[1];
+            high[4] = peak[RATE] * per_shape;
+            low[4] = -high[4];
             let of_shear = peak[output::BASE_SHEAR] / storey.participation;
             high[2] = ((peak[ACCELERATION] - slope) * per_shape).min(of_shear);
             low[2] = -((peak[ACCELERATION] + slope) * per_shape).min(of_shear);
         }
         (low[3], high[3]) = (slope - peak[output::BLOCK], slope + peak[output::BLOCK]);
-        (self.low, self.high) = (Four(low).load(simd), Four(high).load(simd));
+        (self.low, self.high) = (Five::new(low).load(simd), Five::new(high).load(simd));
         // (j) A demand that has reached its largest bound cannot grow but by rounding.
         let [low_n, high_n] = self.of.bounds_n;
         let bound_n = high_n.max(-low_n) * (1.0 - 1e-14);

@@ -1,14 +1,14 @@
-//! The outputs of one storey or none, eight side by side, and the four numbers that bound them.
+//! The outputs of one storey or none, eight side by side, and the five numbers that bound them.
 //!
-//! Nearly every output follows from one of the *gates* `ṡ, η, f, u`: an output stays below its peak while
-//! its gate stays within two limits. So a batch asks for four numbers where nothing is near a peak. Two
+//! Nearly every output follows from one of the *gates* `ṡ, η, f, u, η̇`: an output stays below its peak while
+//! its gate stays within two limits. So a batch asks for five numbers where nothing is near a peak. Two
 //! outputs stand behind several gates: with a damper the slider force in slip, and the overturning moment.
 
-use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
+use fearless_simd::{f64x4, f64x8};
 
 use super::equations::{OneStorey, unit};
-use super::lanes::{BATCH, Eight, Four, combine8, times8};
+use super::lanes::{Abreast, BATCH, Eight, Five, Four, combine4, combine8, larger, times8};
 use crate::linear::{QUIET, System};
 use crate::response::output::{self, Output};
 use crate::solver::outputs::OutputRow;
@@ -18,19 +18,67 @@ pub(super) const DISPLACEMENT: usize = Output::Displacement(0).place(1);
 /// Place of the floor's acceleration.
 pub(super) const ACCELERATION: usize = Output::Acceleration(0).place(1);
 
+/// Place of the storey's velocity.
+pub(super) const RATE: usize = Output::DriftVelocity(0).place(1);
+
+/// Registers of eight that the outputs take.
+pub(in crate::solver) const REGISTERS: usize = Output::count(1, 0).div_ceil(8);
+
+/// Outputs side by side.
+pub(super) type Registers<S> = [f64x8<S>; REGISTERS];
+
+/// What is kept of outputs, for each.
+pub(in crate::solver) type Kept = [Eight; REGISTERS];
+
+/// Each of them.
+#[inline(always)]
+pub(super) fn each(kept: &Kept) -> [f64; 8 * REGISTERS] {
+    core::array::from_fn(|j| kept[j / 8].0[j % 8])
+}
+
+/// Registers made one by one.
+#[inline(always)]
+pub(super) fn by_register<S: Simd>(of: impl FnMut(usize) -> f64x8<S>) -> Registers<S> {
+    core::array::from_fn(of)
+}
+
+/// Outputs as they are kept.
+#[inline(always)]
+pub(super) fn kept<S: Simd>(outputs: Registers<S>) -> Kept {
+    outputs.map(|register| Eight(register.to_array()))
+}
+
+/// Outputs that have been kept.
+#[inline(always)]
+pub(super) fn loaded<S: Simd>(simd: S, kept: &Kept) -> Registers<S> {
+    by_register(|g| kept[g].load(simd))
+}
+
+/// The larger sizes, one by one.
+#[inline(always)]
+pub(super) fn larger_sizes<S: Simd>(a: Registers<S>, b: Registers<S>) -> Registers<S> {
+    by_register(|g| larger(a[g].abs(), b[g].abs()))
+}
+
+/// A bit for each that is above another.
+#[inline(always)]
+pub(super) fn above<S: Simd>(a: Registers<S>, b: Registers<S>) -> u64 {
+    (0..REGISTERS).fold(0, |bits, g| bits | a[g].simd_gt(b[g]).to_bitmask() << (8 * g))
+}
+
 /// Outputs behind each gate.
-pub(super) const BEHIND: [u64; 4] = [
+pub(super) const BEHIND: [u64; 5] = [
     1 << output::VELOCITY,
     1 << DISPLACEMENT,
     1 << output::BASE_SHEAR | 1 << ACCELERATION,
     1 << output::BLOCK,
+    1 << RATE,
 ];
 
 /// Outputs behind those gates whose bits are set.
 #[inline(always)]
 pub(super) fn behind(gates: u64) -> u64 {
-    ((BEHIND[0] * (gates & 1)) | (BEHIND[1] * ((gates >> 1) & 1)))
-        | ((BEHIND[2] * ((gates >> 2) & 1)) | (BEHIND[3] * ((gates >> 3) & 1)))
+    (0..BEHIND.len()).fold(0, |bits, gate| bits | (BEHIND[gate] * ((gates >> gate) & 1)))
 }
 
 /// What turns `f` and `u` into outputs: `Φ`, what `f` and `u` add to the overturning moment, `g sin θ`.
@@ -45,19 +93,19 @@ pub(in crate::solver) struct Shape {
 /// in slip), and a constant.
 #[derive(Debug)]
 pub(super) struct Outputs {
-    pub(super) columns: [Eight; 4],
-    pub(super) of_input: Eight,
-    pub(super) constant: Eight,
+    pub(super) columns: [Kept; 4],
+    pub(super) of_input: Kept,
+    pub(super) constant: Kept,
     /// How far they are off at most for each unit that the gates are off.
-    pub(super) of_gates: [Eight; 4],
+    of_gates: [Kept; 5],
 }
 
 impl Outputs {
     pub(super) const EMPTY: Self = Self {
-        columns: [Eight::ZERO; 4],
-        of_input: Eight::ZERO,
-        constant: Eight::ZERO,
-        of_gates: [Eight::ZERO; 4],
+        columns: [[Eight::ZERO; REGISTERS]; 4],
+        of_input: [Eight::ZERO; REGISTERS],
+        constant: [Eight::ZERO; REGISTERS],
+        of_gates: [[Eight::ZERO; REGISTERS]; 5],
     };
 
     #[inline(always)]
@@ -68,46 +116,60 @@ impl Outputs {
         slip: bool,
         shape: &Shape,
     ) {
-        for (lane, row) in rows.iter().enumerate() {
+        let put = |to: &mut Kept, j: usize, x: f64| to[j / 8].0[j % 8] = x;
+        for (j, row) in rows.iter().enumerate() {
             for (column, factor) in self.columns.iter_mut().zip(&row.state) {
-                column.0[lane] = *factor;
+                put(column, j, *factor);
             }
-            self.of_input.0[lane] = if slip { row.of_friction } else { row.of_a };
-            self.constant.0[lane] = row.constant;
+            put(&mut self.of_input, j, if slip { row.of_friction } else { row.of_a });
+            put(&mut self.constant, j, row.constant);
         }
         let l = storey.participation;
-        let [w, eta, f, u] = &mut self.of_gates;
-        w.0[output::VELOCITY] = 1.0;
-        eta.0[DISPLACEMENT] = shape.floor;
-        f.0[output::BASE_SHEAR] = l;
-        f.0[ACCELERATION] = shape.floor;
-        f.0[output::SLIDER] = l;
-        f.0[output::OVERTURNING] = shape.arms[0].abs();
+        let [w, eta, f, u, rate] = &mut self.of_gates;
+        put(w, output::VELOCITY, 1.0);
+        put(eta, DISPLACEMENT, shape.floor);
+        put(rate, RATE, shape.floor);
+        put(f, output::BASE_SHEAR, l);
+        put(f, ACCELERATION, shape.floor);
+        put(f, output::SLIDER, l);
+        put(f, output::OVERTURNING, shape.arms[0].abs());
         if slip {
-            u.0[output::BLOCK] = 1.0;
+            put(u, output::BLOCK, 1.0);
             // M1 u − L·f.
-            u.0[output::SLIDER] = storey.block_mass_kg;
-            u.0[output::OVERTURNING] = shape.arms[1].abs();
+            put(u, output::SLIDER, storey.block_mass_kg);
+            put(u, output::OVERTURNING, shape.arms[1].abs());
         } else {
-            f.0[output::FRICTION] = l;
+            put(f, output::FRICTION, l);
         }
+    }
+
+    /// How far they are off at most where the gates are off by so much.
+    #[inline(always)]
+    pub(super) fn slack<S: Simd>(&self, simd: S, gates: [f64; 5]) -> Registers<S> {
+        by_register(|g| {
+            let of = |gate: usize| times8(simd, &self.of_gates[gate][g], gates[gate]);
+            ((of(0) + of(1)) + (of(2) + of(3))) + of(4)
+        })
     }
 
     /// In a state under an input.
     #[inline(always)]
-    pub(super) fn at<S: Simd>(&self, simd: S, x: [f64; 4], input: f64) -> f64x8<S> {
-        let input = times8(simd, &self.of_input, input);
-        combine8(simd, &self.columns, x) + (input + self.constant.load(simd))
+    pub(super) fn at<S: Simd>(&self, simd: S, x: [f64; 4], input: f64) -> Registers<S> {
+        by_register(|g| {
+            let input = times8(simd, &self.of_input[g], input);
+            let columns = self.columns.each_ref().map(|column| column[g]);
+            combine8(simd, &columns, x) + (input + self.constant[g].load(simd))
+        })
     }
 }
 
-/// The gates: columns times state and input.
+/// The gates: columns times state and input, and `η̇`, which stands in the state.
 #[derive(Debug)]
 pub(super) struct Gates {
     pub(super) columns: [Four; 4],
     pub(super) of_input: Four,
     /// Sizes of the columns.
-    pub(super) sizes: [Four; 4],
+    sizes: [Four; 4],
     pub(super) slack: Slack,
 }
 
@@ -118,10 +180,10 @@ pub(super) struct Gates {
 /// In slip the chord spans a batch, in stick a sample.
 #[derive(Debug)]
 pub(super) struct Slack {
-    pub(super) of_norm: Four,
-    pub(super) of_acceleration: [Four; 2],
-    pub(super) of_change: Four,
-    pub(super) of_force: [Four; 2],
+    pub(super) of_norm: Five,
+    pub(super) of_acceleration: [Five; 2],
+    pub(super) of_change: Five,
+    pub(super) of_force: [Five; 2],
 }
 
 impl Gates {
@@ -130,17 +192,17 @@ impl Gates {
         of_input: Four::ZERO,
         sizes: [Four::ZERO; 4],
         slack: Slack {
-            of_norm: Four::ZERO,
-            of_acceleration: [Four::ZERO; 2],
-            of_change: Four::ZERO,
-            of_force: [Four::ZERO; 2],
+            of_norm: Five::ZERO,
+            of_acceleration: [Five::ZERO; 2],
+            of_change: Five::ZERO,
+            of_force: [Five::ZERO; 2],
         },
     };
 
     #[inline(always)]
     pub(super) fn new(system: &System, storey: &OneStorey, slip: bool, dt_s: f64) -> Self {
         let f = [0.0, 0.0, storey.omega2, storey.decay];
-        let mut rows = [unit(1), unit(2), f, [0.0; 4]];
+        let mut rows = [unit(1), unit(2), f, [0.0; 4], unit(3)];
         if slip {
             // u = (T − C1 ṡ − K1 s + L·f) / M1
             let (per_mass, share) =
@@ -149,7 +211,7 @@ impl Gates {
             rows[3] = [-k * per_mass, -c * per_mass, share * f[2], share * f[3]];
         }
         let (mut columns, mut sizes) = ([Four::ZERO; 4], [Four::ZERO; 4]);
-        for (j, row) in rows.iter().enumerate() {
+        for (j, row) in rows[..4].iter().enumerate() {
             for i in 0..4 {
                 (columns[i].0[j], sizes[i].0[j]) = (row[i], row[i].abs());
             }
@@ -160,6 +222,12 @@ impl Gates {
             sizes,
             slack: Slack::new(system, storey, slip, &rows, dt_s),
         }
+    }
+
+    /// How large they are at most where the state has these sizes.
+    #[inline(always)]
+    pub(super) fn of_sizes<S: Simd>(&self, simd: S, x: f64x4<S>) -> Abreast<S> {
+        Abreast { four: combine4(simd, &self.sizes, x), fifth: x.as_array()[3] }
     }
 }
 
@@ -175,7 +243,7 @@ impl Slack {
         system: &System,
         storey: &OneStorey,
         slip: bool,
-        rows: &[[f64; 4]; 4],
+        rows: &[[f64; 4]; 5],
         dt_s: f64,
     ) -> Self {
         let mut a = [[0.0; 4]; 4];
@@ -187,8 +255,8 @@ impl Slack {
         let span_s = if slip { BATCH as f64 * dt_s } else { dt_s };
         let reach = 0.125 * span_s * span_s;
         let growth = if slip { storey.root_mass } else { storey.participation.abs() };
-        let (mut of_norm, mut of_change) = (Four::ZERO, Four::ZERO);
-        let (mut of_acceleration, mut of_force) = ([Four::ZERO; 2], [Four::ZERO; 2]);
+        let (mut of_norm, mut of_change) = ([0.0; 5], [0.0; 5]);
+        let (mut of_acceleration, mut of_force) = ([[0.0; 5]; 2], [[0.0; 5]; 2]);
         for (j, c) in rows.iter().enumerate() {
             let (mut ca, mut caa) = ([0.0; 4], [0.0; 4]);
             for i in 0..4 {
@@ -198,16 +266,21 @@ impl Slack {
                 caa[i] = dot(&ca, &a[i]);
             }
             let norm = system.dual_norm(slip, &caa);
-            of_norm.0[j] = reach * norm;
-            of_change.0[j] = reach * dot(c, &b).abs() / dt_s;
+            of_norm[j] = reach * norm;
+            of_change[j] = reach * dot(c, &b).abs() / dt_s;
             let [at_a, at_force] = [dot(&ca, &b).abs(), dot(&ca, &d).abs()];
             for (i, samples) in [BATCH, QUIET].into_iter().enumerate() {
                 let grown = norm * (samples as f64 * dt_s);
-                of_acceleration[i].0[j] = reach * (at_a + grown * growth);
-                of_force[i].0[j] = reach * (at_force + grown * storey.per_root_block);
+                of_acceleration[i][j] = reach * (at_a + grown * growth);
+                of_force[i][j] = reach * (at_force + grown * storey.per_root_block);
             }
         }
-        Self { of_norm, of_acceleration, of_change, of_force }
+        Self {
+            of_norm: Five::new(of_norm),
+            of_acceleration: of_acceleration.map(Five::new),
+            of_change: Five::new(of_change),
+            of_force: of_force.map(Five::new),
+        }
     }
 }
 

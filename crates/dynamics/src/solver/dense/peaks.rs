@@ -5,11 +5,13 @@ use fearless_simd::{f64x4, f64x8};
 
 use super::ahead::Ahead;
 use super::event::Segment;
-use super::lanes::{Eight, Four, combine4, combine8, eight, four, greatest, larger};
+use super::lanes::{Abreast, Eight, Four, eight, greatest, larger};
+use super::outputs::{Kept, REGISTERS, above, by_register, each, kept, larger_sizes, loaded};
 use super::series::{Series, Span};
 use crate::linear::polynomial::{ZERO, largest};
 use crate::response::Mode;
 use crate::response::output;
+use crate::solver::chords::bound_between;
 
 /// Candidates that are kept before they are settled.
 const CANDIDATES: usize = 16;
@@ -27,7 +29,7 @@ pub(super) struct Samples {
 #[derive(Clone, Copy, Debug)]
 enum Place {
     /// With the slack of the outputs over one of them.
-    Samples(Samples, Eight),
+    Samples(Samples, Kept),
     Segment(Segment),
 }
 
@@ -36,7 +38,7 @@ enum Place {
 pub(in crate::solver) struct Candidate {
     place: Place,
     /// Upper bounds on the outputs; zero where it cannot hold a peak.
-    above: Eight,
+    above: Kept,
 }
 
 impl<S: Simd> Ahead<'_, '_, S> {
@@ -47,7 +49,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
         &mut self,
         samples: &Samples,
         mut open: u64,
-        slack: f64x4<S>,
+        slack: Abreast<S>,
     ) {
         let simd = self.simd;
         simd.vectorize(
@@ -71,36 +73,39 @@ impl<S: Simd> Ahead<'_, '_, S> {
                 if !SLIP {
                     (input, inputs) = (a[0], f64x8::from_slice(simd, &a[1..]));
                 }
-                let first = of.at(simd, x, input).abs().to_array();
-                let slack = combine8(simd, &of.of_gates, slack.to_array()).to_array();
-                let (mut peak, mut above) = (self.peak.to_array(), [0.0; 8]);
+                let first = each(&kept(of.at(simd, x, input)));
+                let kept_slack = kept(of.slack(simd, slack.to_array()));
+                let slack = each(&kept_slack);
+                let (mut peak, mut bounds) = (kept(self.peak), [Eight::ZERO; REGISTERS]);
                 let all = (1_u64 << steps) - 1;
                 while open != 0 {
                     let j = open.trailing_zeros() as usize;
                     open &= open - 1;
-                    let c = of.columns.each_ref().map(|column| column.0[j]);
+                    let (g, lane) = (j / 8, j % 8);
+                    let c = of.columns.each_ref().map(|column| column[g].0[lane]);
                     let of_state = (state[0] * eight(simd, c[0]) + state[1] * eight(simd, c[1]))
                         + (state[2] * eight(simd, c[2]) + state[3] * eight(simd, c[3]));
-                    let of_input =
-                        inputs * eight(simd, of.of_input.0[j]) + eight(simd, of.constant.0[j]);
+                    let of_input = inputs * eight(simd, of.of_input[g].0[lane])
+                        + eight(simd, of.constant[g].0[lane]);
                     let sizes = (of_state + of_input).abs();
-                    let limit = peak[j] - slack[j];
+                    let peak = &mut peak[g].0[lane];
+                    let limit = *peak - slack[j];
                     let passes = sizes.simd_gt(eight(simd, limit)).to_bitmask() & all;
-                    if passes == 0 && first[j] <= limit {
+                    let mut attained = first[j].abs();
+                    if passes == 0 && attained <= limit {
                         continue;
                     }
-                    let mut attained = first[j];
                     for size in &sizes.to_array()[..steps] {
                         attained = greatest(attained, *size);
                     }
-                    peak[j] = greatest(peak[j], attained);
-                    above[j] = attained + slack[j];
+                    *peak = greatest(*peak, attained);
+                    bounds[g].0[lane] = attained + slack[j];
                 }
-                self.peak = f64x8::load_array(simd, peak);
+                self.peak = loaded(simd, &peak);
                 self.set_limits();
-                let above = Eight(above);
-                if above.load(simd).simd_gt(self.peak).any_true() {
-                    self.keep(Candidate { place: Place::Samples(*samples, Eight(slack)), above });
+                if above(loaded(simd, &bounds), self.peak) != 0 {
+                    let place = Place::Samples(*samples, kept_slack);
+                    self.keep(Candidate { place, above: bounds });
                 }
             },
         );
@@ -122,7 +127,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
         let slack = self.slack::<SLIP>(series, t);
         let first = self.gates::<SLIP>(Four(segment.x).load(simd), input[0]);
         let last = self.gates::<SLIP>(end, input[1]);
-        let quiet = (self.within(first, slack) & self.within(last, slack)).all_true();
+        let quiet = self.are_within(first, slack) && self.are_within(last, slack);
         let [s, end_s] = [segment.x[0], end.as_array()[0]];
         let slider_n = [
             friction_n[0] - storey.stiffness_n_per_m * s,
@@ -131,10 +136,10 @@ impl<S: Simd> Ahead<'_, '_, S> {
         let friction = greatest(friction_n[0].abs(), friction_n[1].abs());
         let slider = greatest(slider_n[0].abs(), slider_n[1].abs());
         let stays = if SLIP {
-            let peak = self.peak.as_array();
+            let peak = self.peak[0].as_array();
             friction <= peak[output::FRICTION] && slider <= peak[output::SLIDER]
         } else {
-            let hidden = storey.participation * slack.as_array()[2];
+            let hidden = storey.participation * slack.four.as_array()[2];
             friction + hidden <= self.most_friction && slider + hidden <= self.most_slider
         };
         if !(quiet && stays) || self.several {
@@ -144,9 +149,9 @@ impl<S: Simd> Ahead<'_, '_, S> {
 
     /// How far the gates depart from the chord over the first part `t` of a segment at most.
     #[inline(always)]
-    fn slack<const SLIP: bool>(&self, series: &Series<S>, t: f64) -> f64x4<S> {
-        let sizes = &self.phase::<SLIP>().gates.sizes;
-        combine4(self.simd, sizes, series.curvature) * four(self.simd, 0.125 * (t * t))
+    fn slack<const SLIP: bool>(&self, series: &Series<S>, t: f64) -> Abreast<S> {
+        let gates = &self.phase::<SLIP>().gates;
+        gates.of_sizes(self.simd, series.curvature).times(self.simd, 0.125 * (t * t))
     }
 
     /// The same for all outputs.
@@ -157,7 +162,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
         end: [f64; 4],
         t: f64,
         input: [f64; 2],
-        slack: [f64; 4],
+        slack: [f64; 5],
     ) {
         let simd = self.simd;
         simd.vectorize(
@@ -165,26 +170,21 @@ impl<S: Simd> Ahead<'_, '_, S> {
             || {
                 let of = &self.phase::<SLIP>().outputs;
                 let (first, last) = (of.at(simd, segment.x, input[0]), of.at(simd, end, input[1]));
-                let slack = combine8(simd, &of.of_gates, slack);
-                let attained = larger(first.abs(), last.abs());
-                if (attained + slack).simd_le(self.peak).all_true() {
+                let slack = of.slack(simd, slack);
+                let attained = larger_sizes(first, last);
+                let bound = by_register(|g| attained[g] + slack[g]);
+                if above(bound, self.peak) == 0 {
                     return;
                 }
-                self.peak = larger(self.peak, attained);
+                self.peak = larger_sizes(self.peak, attained);
                 self.set_limits();
-                // A parabola of that curvature between ends d apart rises above the higher one by
-                // (slack − d/4)²/slack, and not at all where d ≥ 4 slack.
-                let zero = eight(simd, 0.0);
-                let inside = slack - (last - first).abs() * eight(simd, 0.25);
-                let rise = inside.simd_gt(zero).select(inside * (inside / slack), zero);
+                let bound = by_register(|g| bound_between(simd, [first[g], last[g]], slack[g]));
                 // A few ulp are no more than the rounding of the ends.
-                let above = attained + rise;
-                let rounding = self.peak * eight(simd, 1e-15);
-                if above.simd_gt(self.peak + rounding).any_true() {
+                let most = self.peak.map(|peak| peak + peak * eight(simd, 1e-15));
+                if above(bound, most) != 0 {
                     let mut segment = *segment;
                     segment.span.rest = t;
-                    let above = Eight(above.to_array());
-                    self.keep(Candidate { place: Place::Segment(segment), above });
+                    self.keep(Candidate { place: Place::Segment(segment), above: kept(bound) });
                 }
             },
         );
@@ -202,9 +202,8 @@ impl<S: Simd> Ahead<'_, '_, S> {
     }
 
     fn drop_overtaken(&mut self) {
-        let peak = self.peak.to_array();
-        let may = |c: &Candidate| c.above.0.iter().zip(&peak).any(|(above, peak)| above > peak);
-        self.shared.candidates.retain(may);
+        let (simd, peak) = (self.simd, self.peak);
+        self.shared.candidates.retain(|c| above(loaded(simd, &c.above), peak) != 0);
     }
 
     /// Settles all candidates.
@@ -216,8 +215,8 @@ impl<S: Simd> Ahead<'_, '_, S> {
             || {
                 self.drop_overtaken();
                 for i in 0..self.shared.candidates.len() {
-                    let Candidate { place, above } = self.shared.candidates[i];
-                    if above.load(simd).simd_le(self.peak).all_true() {
+                    let Candidate { place, above: bound } = self.shared.candidates[i];
+                    if above(loaded(simd, &bound), self.peak) == 0 {
                         continue;
                     }
                     match place {
@@ -242,18 +241,19 @@ impl<S: Simd> Ahead<'_, '_, S> {
 
     /// Settles those of some samples that may hold a peak.
     #[inline(always)]
-    fn settle_samples<const SLIP: bool>(&mut self, samples: &Samples, slack: &Eight) {
+    fn settle_samples<const SLIP: bool>(&mut self, samples: &Samples, slack: &Kept) {
         let (simd, pieces) = (self.simd, self.of.tables.pieces);
         let Samples { sample, steps, mode, x: first_x } = *samples;
         let (a, force_n, of) =
             (self.window(sample), self.force_n(mode), &self.phase::<SLIP>().outputs);
-        let (x, slack) = (Four(first_x).load(simd), slack.load(simd));
+        let (x, slack) = (Four(first_x).load(simd), loaded(simd, slack));
         let mut start = first_x;
         let mut first = of.at(simd, start, if SLIP { force_n } else { a[0] });
         for k in 0..steps {
             let end = self.after::<SLIP>(k + 1, x, a, force_n).to_array();
             let last = of.at(simd, end, if SLIP { force_n } else { a[k + 1] });
-            if (larger(first.abs(), last.abs()) + slack).simd_gt(self.peak).any_true() {
+            let attained = larger_sizes(first, last);
+            if above(by_register(|g| attained[g] + slack[g]), self.peak) != 0 {
                 let change = (a[k + 1] - a[k]) / pieces as f64;
                 let mut x = start;
                 for piece in 0..pieces {
@@ -275,34 +275,39 @@ impl<S: Simd> Ahead<'_, '_, S> {
         let end = series.at(rest).to_array();
         let input = if SLIP { [force_n; 2] } else { [a, a + change * rest] };
         let (first, last) = (of.at(simd, segment.x, input[0]), of.at(simd, end, input[1]));
-        let slack = combine8(simd, &of.of_gates, self.slack::<SLIP>(&series, rest).to_array());
+        let slack = of.slack(simd, self.slack::<SLIP>(&series, rest).to_array());
         // A peak on the upper side, and on the lower one.
-        let upper = (larger(first, last) + slack).simd_gt(self.peak).to_bitmask();
-        let lower = (larger(-first, -last) + slack).simd_gt(self.peak).to_bitmask();
+        let [upper, lower] = [1.0, -1.0].map(|sign| {
+            let sign = eight(simd, sign);
+            let most = by_register(|g| larger(sign * first[g], sign * last[g]) + slack[g]);
+            above(most, self.peak)
+        });
         let mut open = upper | lower;
-        self.peak = larger(self.peak, larger(first.abs(), last.abs()));
-        let (mut peak, first) = (self.peak.to_array(), first.to_array());
+        self.peak = larger_sizes(self.peak, larger_sizes(first, last));
+        let (mut peak, first) = (kept(self.peak), kept(first));
         while open != 0 {
             let j = open.trailing_zeros() as usize;
             open &= open - 1;
+            let (g, lane) = (j / 8, j % 8);
             let mut p = ZERO;
-            p[0] = first[j];
-            let c = of.columns.each_ref().map(|column| column.0[j]);
+            p[0] = first[g].0[lane];
+            let c = of.columns.each_ref().map(|column| column[g].0[lane]);
             let mut power = 1.0;
             for (k, x) in series.coefficients().iter().enumerate() {
                 power *= rest;
                 let of_state = (c[0] * x[0] + c[1] * x[1]) + (c[2] * x[2] + c[3] * x[3]);
-                let of_input = if SLIP || k > 0 { 0.0 } else { of.of_input.0[j] * change };
+                let of_input = if SLIP || k > 0 { 0.0 } else { of.of_input[g].0[lane] * change };
                 p[k + 1] = (of_state + of_input) * power;
             }
+            let peak = &mut peak[g].0[lane];
             if upper >> j & 1 != 0 {
-                peak[j] = largest(&p, 1.0, peak[j]);
+                *peak = largest(&p, 1.0, *peak);
             }
             if lower >> j & 1 != 0 {
-                peak[j] = largest(&p.map(|c| -c), 1.0, peak[j]);
+                *peak = largest(&p.map(|c| -c), 1.0, *peak);
             }
         }
-        self.peak = f64x8::load_array(simd, peak);
+        self.peak = loaded(simd, &peak);
         self.set_limits();
         end
     }

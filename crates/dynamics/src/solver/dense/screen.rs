@@ -4,7 +4,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, f64x8};
 
 use super::ahead::Ahead;
-use super::lanes::{BATCH, Four, eight, four, greatest, larger4, least, times4};
+use super::lanes::{Abreast, BATCH, Five, eight, greatest, least, times4};
 use super::outputs::{BEHIND, behind};
 use super::peaks::Samples;
 use crate::linear::{QUIET, Window};
@@ -30,15 +30,12 @@ impl<S: Simd> Ahead<'_, '_, S> {
         let of = &tables.slip.gates.slack;
         let mode = Mode::Slip(direction);
         let (sign, force_n) = (direction.sign(), self.force_n(mode));
-        let by_force = [
-            times4(simd, &of.of_force[0], force_n.abs()),
-            times4(simd, &of.of_force[1], force_n.abs()),
-        ];
+        let by_force = [0, 1].map(|i| of.of_force[i].times(simd, force_n.abs()));
         let mut x = self.state();
         let mut gates = self.gates::<true>(x, force_n);
         // Where the gates have passed by far, one slack serves many samples: it is made from here on, and
         // serves up to there.
-        let (mut far, mut far_from, mut far_to) = (four(simd, 0.0), end, 0);
+        let (mut far, mut far_from, mut far_to) = (Five::ZERO.load(simd), end, 0);
         while sample + BATCH <= end {
             let a = self.window(sample);
             let start = x.to_array();
@@ -64,8 +61,8 @@ impl<S: Simd> Ahead<'_, '_, S> {
             let extent = self.of.windows.batch(sample);
             let slack = self.slack_in_slip(start, extent, (&of.of_acceleration[0], by_force[0]));
             // (i) |ṡ| ≥ min of the ends − H²/8 max|g″|: it slides through.
-            let hidden = slack.as_array()[0];
-            let u = gates.as_array()[3];
+            let hidden = slack.four.as_array()[0];
+            let u = gates.four.as_array()[3];
             let is_likely =
                 sign * (start[1] + tables.batch_s * (u - 0.5 * (a[0] + a[BATCH]))) > 0.0;
             let (mut slides, mut open_gates, mut open) = (false, 0, 0);
@@ -104,10 +101,10 @@ impl<S: Simd> Ahead<'_, '_, S> {
                 if slides && open_gates & 1 != 0 {
                     speed = self.row::<true>(&tables.slip.rows[1], start, a, force_n);
                 }
-                let slack = slack * four(simd, PER_SAMPLE);
+                let slack = slack.times(simd, PER_SAMPLE);
                 let samples = Samples { sample, steps, mode, x: start };
                 open |= self.open_at_samples(&samples, a, force_n, open_gates, speed, slack);
-                open |= behind(!self.within(gates, slack).to_bitmask());
+                open |= behind(self.open(gates, slack));
                 if open != 0 {
                     self.look_over::<true>(&samples, open, slack);
                 }
@@ -129,20 +126,21 @@ impl<S: Simd> Ahead<'_, '_, S> {
         &self,
         x: [f64; 4],
         extent: Extent,
-        (of_acceleration, by_force): (&Four, f64x4<S>),
-    ) -> f64x4<S> {
+        (of_acceleration, by_force): (&Five, Abreast<S>),
+    ) -> Abreast<S> {
         let (simd, tables) = (self.simd, self.of.tables);
         let of = &tables.slip.gates.slack;
-        (times4(simd, &of.of_norm, tables.storey.norm(&x))
-            + times4(simd, of_acceleration, extent.size + self.slope))
-            + (times4(simd, &of.of_change, extent.change) + by_force)
+        let by_norm = of.of_norm.times(simd, tables.storey.norm(&x));
+        let by_acceleration = of_acceleration.times(simd, extent.size + self.slope);
+        let by_change = of.of_change.times(simd, extent.change);
+        by_norm.plus(by_acceleration).plus(by_change.plus(by_force))
     }
 
     /// Whether at an end of a chord the gates are within their limits, and the block slides, by a slack.
     #[inline(always)]
-    fn slides_within(&self, gates: f64x4<S>, slack: f64x4<S>, sign: f64) -> bool {
-        let speed = sign * gates.as_array()[0];
-        self.within(gates, slack).all_true() && speed > slack.as_array()[0]
+    fn slides_within(&self, gates: Abreast<S>, slack: Abreast<S>, sign: f64) -> bool {
+        let speed = sign * gates.four.as_array()[0];
+        self.are_within(gates, slack) && speed > slack.four.as_array()[0]
     }
 
     /// Gates that may pass their limits between two states of a slide, and outputs behind several gates that
@@ -151,20 +149,19 @@ impl<S: Simd> Ahead<'_, '_, S> {
     #[inline(always)]
     fn open_in_slip(
         &self,
-        [first, last]: [f64x4<S>; 2],
+        [first, last]: [Abreast<S>; 2],
         [x, next]: [f64x4<S>; 2],
-        slack: f64x4<S>,
+        slack: Abreast<S>,
         force_n: f64,
     ) -> (u64, u64) {
-        let within = self.within(first, slack) & self.within(last, slack);
-        let open_gates = !within.to_bitmask() & 0b1111;
+        let open_gates = self.open(first, slack) | self.open(last, slack);
         if !self.several {
             return (open_gates, 0);
         }
-        let gates = (larger4(first.abs(), last.abs()) + slack).to_array();
+        let gates = first.larger_size(last).plus(slack).to_array();
         let s = greatest(x.as_array()[0].abs(), next.as_array()[0].abs());
         let (storey, [of_f, of_u]) = (&self.of.tables.storey, self.of.tables.shape.arms);
-        let peak = self.peak.as_array();
+        let peak = self.peak[0].as_array();
         let restraint = storey.stiffness_n_per_m * s + storey.damper_n_s_per_m * gates[0];
         let slider = force_n.abs() + restraint;
         let moment = of_f.abs() * gates[2] + of_u.abs() * gates[3];
@@ -183,23 +180,29 @@ impl<S: Simd> Ahead<'_, '_, S> {
         force_n: f64,
         open_gates: u64,
         speed: f64x8<S>,
-        slack: f64x4<S>,
+        slack: Abreast<S>,
     ) -> u64 {
         let (simd, storey, start) = (self.simd, &self.of.tables.storey, samples.x);
         let (rows, steps) = (&self.of.tables.slip.rows, samples.steps);
-        let (low, high) = ((self.low + slack).to_array(), (self.high - slack).to_array());
-        let limits: [[f64; 2]; 4] = core::array::from_fn(|i| [low[i], high[i]]);
+        let (low, high) = (self.low.plus(slack).to_array(), self.high.less(slack).to_array());
+        let limits: [[f64; 2]; 5] = core::array::from_fn(|i| [low[i], high[i]]);
         let mut open = 0;
-        if open_gates & 0b0001 != 0 && passes(simd, speed, limits[0], steps) {
+        if open_gates & 0b0_0001 != 0 && passes(simd, speed, limits[0], steps) {
             open |= BEHIND[0];
         }
-        if open_gates & 0b0010 != 0 {
+        if open_gates & 0b0_0010 != 0 {
             let eta = self.row::<true>(&rows[2], start, a, force_n);
             if passes(simd, eta, limits[1], steps) {
                 open |= BEHIND[1];
             }
         }
-        if open_gates & 0b1100 != 0 {
+        if open_gates & 0b1_0000 != 0 {
+            let rate = self.row::<true>(&rows[4], start, a, force_n);
+            if passes(simd, rate, limits[4], steps) {
+                open |= BEHIND[4];
+            }
+        }
+        if open_gates & 0b0_1100 != 0 {
             let f = self.row::<true>(&rows[3], start, a, force_n);
             if passes(simd, f, limits[2], steps) {
                 open |= BEHIND[2];
@@ -237,16 +240,15 @@ impl<S: Simd> Ahead<'_, '_, S> {
             let amplitude = storey.amplitude(&start);
             let Extent { size, change } = self.of.windows.batch(sample);
             let size = size + self.slope;
-            let base = times4(simd, &quiet.of_amplitude, amplitude);
-            let most = base + times4(simd, &quiet.of_acceleration[0], size);
-            let within = most.simd_le(limit);
-            let quiet_batch = within.all_true() && self.moment_stays(most);
-            if quiet_batch && most.as_array()[0] <= holds {
+            let base = quiet.of_amplitude.times(simd, amplitude);
+            let most = base.plus(quiet.of_acceleration[0].times(simd, size));
+            let quiet_batch = most.is_within(limit) && self.moment_stays(most);
+            if quiet_batch && most.four.as_array()[0] <= holds {
                 if sample + QUIET <= end {
                     let far = self.of.windows.many(sample).size + self.slope;
-                    let most = base + times4(simd, &quiet.of_acceleration[1], far);
-                    let stays = most.simd_le(limit).all_true() && self.moment_stays(most);
-                    if stays && most.as_array()[0] <= holds {
+                    let most = base.plus(quiet.of_acceleration[1].times(simd, far));
+                    let stays = most.is_within(limit) && self.moment_stays(most);
+                    if stays && most.four.as_array()[0] <= holds {
                         self.record_quiet(sample, x);
                         x = self.after_quiet(sample, x);
                         sample += QUIET;
@@ -258,10 +260,10 @@ impl<S: Simd> Ahead<'_, '_, S> {
                 sample += BATCH;
                 continue;
             }
-            let slack = (times4(simd, &of.of_norm, amplitude)
-                + times4(simd, &of.of_acceleration[0], size))
-                + times4(simd, &of.of_change, change);
-            let hidden = storey.participation * slack.as_array()[2];
+            let slack = (of.of_norm.times(simd, amplitude))
+                .plus(of.of_acceleration[0].times(simd, size))
+                .plus(of.of_change.times(simd, change));
+            let hidden = storey.participation * slack.four.as_array()[2];
             // Of the demand without the spring's part.
             let demand = self.row::<false>(&tables.stick.rows[0], start, a, 0.0);
             let clear = demand.simd_gt(eight(simd, (low - spring_n) + hidden))
@@ -273,13 +275,14 @@ impl<S: Simd> Ahead<'_, '_, S> {
                 break;
             }
             if !quiet_batch {
-                let open_gates = !within.to_bitmask() & 0b1111;
+                let open_gates = !most.within(limit);
                 let u = f64x8::from_slice(simd, &a[1..]);
                 let first_gates = self.gates::<false>(x, a[0]);
-                let mut open = behind(!self.within(first_gates, slack).to_bitmask());
+                let mut open = behind(self.open(first_gates, slack));
                 open |= u64::from(!self.moment_stays(most)) << output::OVERTURNING;
-                let (low, high) = ((self.low + slack).to_array(), (self.high - slack).to_array());
-                if open_gates & 0b0001 != 0 {
+                let low = self.low.plus(slack).to_array();
+                let high = self.high.less(slack).to_array();
+                if open_gates & 0b0_0001 != 0 {
                     let most = self.most_friction - hidden;
                     let friction = demand + eight(simd, spring_n);
                     if first.abs() > most || passes(simd, friction, [-most, most], steps) {
@@ -291,13 +294,19 @@ impl<S: Simd> Ahead<'_, '_, S> {
                         open |= 1 << output::SLIDER;
                     }
                 }
-                if open_gates & 0b0010 != 0 {
+                if open_gates & 0b1_0000 != 0 {
+                    let rate = self.row::<false>(&tables.stick.rows[4], start, a, 0.0);
+                    if passes(simd, rate, [low[4], high[4]], steps) {
+                        open |= BEHIND[4];
+                    }
+                }
+                if open_gates & 0b0_0010 != 0 {
                     let eta = self.row::<false>(&tables.stick.rows[2], start, a, 0.0);
                     if passes(simd, eta, [low[1], high[1]], steps) {
                         open |= BEHIND[1];
                     }
                 }
-                if open_gates & 0b0100 != 0 {
+                if open_gates & 0b0_0100 != 0 {
                     // L·f = M1 a − T, without the spring's part.
                     let shear = eight(simd, storey.block_mass_kg) * u - demand;
                     let f = shear * eight(simd, 1.0 / storey.participation);
@@ -305,7 +314,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
                         open |= BEHIND[2];
                     }
                 }
-                if open_gates & 0b1000 != 0 && passes(simd, u, [low[3], high[3]], steps) {
+                if open_gates & 0b0_1000 != 0 && passes(simd, u, [low[3], high[3]], steps) {
                     open |= BEHIND[3];
                 }
                 if open != 0 {
@@ -326,27 +335,28 @@ impl<S: Simd> Ahead<'_, '_, S> {
     }
 
     /// Sizes below which no output of stick passes its peak: of the demand without the spring's part, `η`,
-    /// `f` and `a`.
+    /// `f`, `a` and `η̇`.
     #[inline(always)]
-    fn limits_in_stick(&self, spring_n: f64) -> f64x4<S> {
+    fn limits_in_stick(&self, spring_n: f64) -> Abreast<S> {
         let (low, high) = (self.low.to_array(), self.high.to_array());
         let limits = [
             least(self.most_friction - spring_n.abs(), self.most_slider),
             high[1],
             least(high[2], -low[2]),
             least(high[3], -low[3]),
+            high[4],
         ];
-        Four(limits).load(self.simd)
+        Five::new(limits).load(self.simd)
     }
 
     /// Whether in stick the overturning moment stays below its peak under such sizes.
     #[inline(always)]
-    fn moment_stays(&self, most: f64x4<S>) -> bool {
+    fn moment_stays(&self, most: Abreast<S>) -> bool {
         if !self.overturns {
             return true;
         }
         let ([of_f, of_u], most) = (self.of.tables.shape.arms, most.to_array());
-        of_f.abs() * most[2] + of_u.abs() * most[3] <= self.peak.as_array()[output::OVERTURNING]
+        of_f.abs() * most[2] + of_u.abs() * most[3] <= self.peak[0].as_array()[output::OVERTURNING]
     }
 
     /// State after many samples of stick.

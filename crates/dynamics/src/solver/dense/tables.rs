@@ -10,7 +10,7 @@
 use fearless_simd::prelude::*;
 
 use super::equations::{OneStorey, unit};
-use super::lanes::{BATCH, Eight, Four};
+use super::lanes::{BATCH, Eight, Five, Four};
 use super::outputs::{Gates, Outputs, Shape};
 use super::series::{PIECE_RATE, Table};
 use crate::linear::{QUIET, System};
@@ -68,10 +68,10 @@ pub(super) struct Quiet {
     pub(super) first: Four,
     /// What a unit of acceleration at each sample after the first leaves of `η` and of `η̇`.
     pub(super) taps: [[Eight; QUIET / BATCH]; 2],
-    /// Bounds on the sizes of the demand without the spring's part, of `η`, `f` and `a`: of the amplitude at
+    /// Bounds on the sizes of the demand without the spring's part, of `η`, `f`, `a` and `η̇`: of the amplitude at
     /// the start, and of the largest acceleration in a batch and in all the samples.
-    pub(super) of_amplitude: Four,
-    pub(super) of_acceleration: [Four; 2],
+    pub(super) of_amplitude: Five,
+    pub(super) of_acceleration: [Five; 2],
 }
 
 impl Tables {
@@ -126,8 +126,8 @@ impl Tables {
             power: [Four::ZERO; 4],
             first: Four::ZERO,
             taps: [[Eight::ZERO; QUIET / BATCH]; 2],
-            of_amplitude: Four::ZERO,
-            of_acceleration: [Four::ZERO; 2],
+            of_amplitude: Five::ZERO,
+            of_acceleration: [Five::ZERO; 2],
         },
     };
 }
@@ -237,14 +237,16 @@ impl Quiet {
         }
         let l = storey.participation.abs();
         let of_f = system.dual_norm(false, &[0.0, 0.0, storey.omega2, storey.decay]);
-        let of_amplitude = [l * of_f, system.dual_norm(false, &unit(2)), of_f, 0.0];
-        self.of_amplitude = Four(of_amplitude);
+        let [of_eta, of_rate] = [2, 3].map(|i| system.dual_norm(false, &unit(i)));
+        let of_amplitude = [l * of_f, of_eta, of_f, 0.0, of_rate];
+        self.of_amplitude = Five::new(of_amplitude);
         // (k) The amplitude grows by no more than |L| ∫|a| dt.
         for (of_acceleration, samples) in self.of_acceleration.iter_mut().zip([BATCH, QUIET]) {
             let growth = samples as f64 * dt_s * l;
-            *of_acceleration = Four(of_amplitude.map(|of| of * growth));
-            of_acceleration.0[0] += storey.block_mass_kg;
-            of_acceleration.0[3] = 1.0;
+            let mut of = of_amplitude.map(|of| of * growth);
+            of[0] += storey.block_mass_kg;
+            of[3] = 1.0;
+            *of_acceleration = Five::new(of);
         }
     }
 }

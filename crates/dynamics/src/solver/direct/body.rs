@@ -314,6 +314,7 @@ impl Body {
         out.ground = a;
         (out.normal[0], out.normal[1]) = (loads.normal[0], loads.normal[1] * unit_s);
         let [n0, n1] = [out.normal[0], out.normal[1]];
+        let pressing = in_force.force.pressing.series([n0, n1]);
         (out.press[0], out.press[1]) = (n0 / self.total_kg, n1 / self.total_kg);
         for (floor, carrier) in out.carriers.iter_mut().enumerate() {
             *carrier = [self.joined_kg(floor, modes), 0.0];
@@ -371,10 +372,9 @@ impl Body {
                         }
                     }
                 };
-                let mut resisting = n0 * mu(k, w_k, decay);
-                if k > 0 {
-                    resisting += n1 * mu(k - 1, w[k - 1], decay);
-                }
+                let terms = if force.pressing.is_plain() { k.min(1) } else { k };
+                let resisting =
+                    (0..=terms).fold(0.0, |sum, j| sum + pressing[j] * mu(k - j, w[k - j], decay));
                 slider[k] = -sign * resisting - spring;
                 let rubbing = if force.is_friction { product } else { 0.0 };
                 friction[k] = -sign * resisting - rubbing;
@@ -459,6 +459,8 @@ impl Body {
             for k in [DEGREE - 1, DEGREE] {
                 limit(largest, k, sizes[k]);
             }
+            let [normal, change, ..] = out.normal;
+            let reach = in_force.force.pressing.reach([normal, change]);
             if let Coefficient::Exponential { drop, rate_s_per_m, .. } = in_force.force.coefficient
                 && in_force.modes[0] != Mode::Stick
                 && drop != 0.0
@@ -468,7 +470,7 @@ impl Body {
                 }
                 part = fading_part(&out.w, rate_s_per_m, part);
             }
-            part
+            part.min(reach)
         } else {
             0.5
         }

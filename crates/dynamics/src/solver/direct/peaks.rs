@@ -118,6 +118,28 @@ pub(super) struct InSeries<'e> {
     series: &'e Expansion,
 }
 
+impl<'e> InSeries<'e> {
+    /// A point's share of a list of the floors.
+    fn of_point(&self, point: usize, list: &'e [Polynomial]) -> Part<'e> {
+        match &self.body.points {
+            None => Part::Less(&list[point], 0.0),
+            Some((points, _)) => Part::Made(combined(&points[point], list)),
+        }
+    }
+
+    /// The same over the point before it, if there is one.
+    fn over_last(&self, point: usize, list: &'e [Polynomial]) -> Part<'e> {
+        let Some(last) = point.checked_sub(1) else { return self.of_point(point, list) };
+        match &self.body.points {
+            None => Part::Difference([&list[point], &list[last]]),
+            Some((points, _)) => {
+                let [here, below] = [point, last].map(|i| combined(&points[i], list));
+                Part::Made(core::array::from_fn(|k| here[k] - below[k]))
+            }
+        }
+    }
+}
+
 impl<'e> Quantities for InSeries<'e> {
     type Value = Part<'e>;
 
@@ -146,21 +168,15 @@ impl<'e> Quantities for InSeries<'e> {
     }
 
     fn displacement(&self, point: usize) -> Part<'e> {
-        match &self.body.points {
-            None => Part::Less(&self.series.q[point], 0.0),
-            Some((points, _)) => Part::Made(combined(&points[point], &self.series.q)),
-        }
+        self.of_point(point, &self.series.q)
     }
 
     fn drift(&self, point: usize) -> Part<'e> {
-        let q = &self.series.q;
-        match &self.body.points {
-            None => Part::Difference([&q[point], &q[point - 1]]),
-            Some((points, _)) => {
-                let [here, below] = [point, point - 1].map(|i| combined(&points[i], q));
-                Part::Made(core::array::from_fn(|k| here[k] - below[k]))
-            }
-        }
+        self.over_last(point, &self.series.q)
+    }
+
+    fn drift_velocity(&self, point: usize) -> Part<'e> {
+        self.over_last(point, &self.series.v)
     }
 
     fn acceleration(&self, point: usize) -> Part<'e> {

@@ -4,7 +4,8 @@
 //! with `R` its root at the start of a sample
 //!
 //! ```text
-//! |η̈| = |ε̈| ≤ (ω + d) R        |g̈| = |ε⁗| ≤ (ω² (ω + d) + d (ω² + d (ω + d))) R
+//! |η̈| = |ε̈| ≤ (ω + d) R        |η⃛| = |ε⃛| ≤ (ω² + d (ω + d)) R
+//! |g̈| = |ε⁗| ≤ (ω² (ω + d) + d (ω² + d (ω + d))) R
 //! ```
 //!
 //! and no output departs by more from the chord between the ends of the sample than an eighth of `h²` times the sum of these.
@@ -13,7 +14,7 @@
 use super::Plane;
 use super::peaks::StickEnd;
 use super::rows::{PointsBetween, size_of_sum};
-use super::system::System;
+use super::system::{State, System};
 use super::vector::{inner, norm};
 use crate::error::SolveError;
 use crate::numerics::InstructionSet;
@@ -33,8 +34,8 @@ pub(super) struct Ahead {
     instructions: InstructionSet,
     step_s: f64,
     modes: Vec<Map>,
-    /// How far `η` and `g` of each mode depart from their chords at most.
-    bends: [Vec<f64>; 2],
+    /// How far `η`, `η̇` and `g` of each mode depart from their chords at most.
+    bends: [Vec<f64>; 3],
     /// `η`, `η̇` and `g` at the end of a sample.
     eta: Vec<f64>,
     rate: Vec<f64>,
@@ -53,7 +54,7 @@ struct Map {
     omega2: f64,
     damping: f64,
     /// Factors on `R`.
-    bends: [f64; 2],
+    bends: [f64; 3],
 }
 
 impl Map {
@@ -89,7 +90,7 @@ impl Map {
             of_rate: [0.0; 2],
             omega2,
             damping,
-            bends: [0.0; 2],
+            bends: [0.0; 3],
         };
         let mut columns = [[1.0, 0.0], [0.0, 1.0]];
         for i in 0..parts as usize {
@@ -101,7 +102,8 @@ impl Map {
         }
         map.of_state = [0, 1].map(|i| [columns[0][i], columns[1][i]]);
         let (eighth, sum) = (0.125 * step_s * step_s, omega + damping);
-        map.bends = [eighth * sum, eighth * (omega2 * sum + damping * (omega2 + damping * sum))];
+        let of_third = omega2 + damping * sum;
+        map.bends = [sum, of_third, omega2 * sum + damping * of_third].map(|of| eighth * of);
         map
     }
 
@@ -138,7 +140,7 @@ impl Ahead {
             instructions,
             step_s,
             modes,
-            bends: [list(), list()],
+            bends: [list(), list(), list()],
             eta: list(),
             rate: list(),
             g: list(),
@@ -147,11 +149,11 @@ impl Ahead {
         })
     }
 
-    /// What points do over a sample that begins with `η` and `g`.
+    /// What points do over a sample that begins with a state and `g`.
     #[inline(always)]
-    fn look_at_points(&mut self, system: &System, (eta, g): (&[f64], &[f64])) {
-        let start = (!self.is_known).then_some([eta, g]);
-        self.points.follow(system, start, [&self.eta, &self.g], &self.bends);
+    fn look_at_points(&mut self, system: &System, (state, g): (&State, &[f64])) {
+        let start = (!self.is_known).then_some([&*state.eta, &*state.rate, g]);
+        self.points.follow(system, start, [&self.eta, &self.rate, &self.g], &self.bends);
     }
 }
 
@@ -215,21 +217,21 @@ impl Plane<'_> {
             StickEnd { table, pull, push: system.push(pull, table), shear_n, g }
         };
         let ends = [end(from, g), end(to, &ahead.g)];
-        let bend_n = system.participation.each_ref().map(|l| size_of_sum(l, &ahead.bends[1]));
+        let bend_n = system.participation.each_ref().map(|l| size_of_sum(l, &ahead.bends[2]));
         let bend = bend_n.map(|bend| bend / system.block_kg);
         let hold = system.hold.radius(from.1.min(to.1));
         let largest = norm(ends[0].push).max(norm(ends[1].push)) + norm(bend);
         let [first, last] = &ends;
         if !(hold > 0.0
             && largest < WITHIN * hold
-            && self.peaks.hold_in_stick(system, [first, last], (bend_n, &ahead.bends[1])))
+            && self.peaks.hold_in_stick(system, [first, last], (bend_n, &ahead.bends[2])))
         {
             return false;
         }
         if system.points == 0 {
             return true;
         }
-        vectorize!(ahead.instructions, _simd => ahead.look_at_points(system, (&state.eta, g)));
+        vectorize!(ahead.instructions, _simd => ahead.look_at_points(system, (state, g)));
         self.peaks.hold_at_points(system, [from.0, to.0], &ahead.points)
     }
 }

@@ -256,10 +256,11 @@ impl Force {
         self.reach_s = if series.part > 0.0 { series.part * series.unit } else { 0.0 };
     }
 
-    /// `N` over a step.
-    pub(super) fn press(&mut self, loads: &Loads, step_s: f64) {
+    /// `N` that friction follows over a step.
+    pub(super) fn press(&mut self, law: &Kinetic, loads: &Loads, step_s: f64) {
         let [normal_n, rate] = loads.normal;
-        self.normal_n = nodes().at.map(|x| (normal_n + rate * (step_s * x)).max(0.0));
+        let normal_n = nodes().at.map(|x| (normal_n + rate * (step_s * x)).max(0.0));
+        self.normal_n = normal_n.map(|n| law.pressing_n(n));
     }
 
     /// Without friction over a step, by what is kept.

@@ -193,24 +193,24 @@ pub(super) struct Peaks {
 #[derive(Default)]
 struct Room {
     points: PointsBetween,
-    of_modes: [Vec<f64>; 2],
+    of_modes: [Vec<f64>; 3],
 }
 
 impl Room {
     fn new(system: &System) -> Self {
         let list = || vec![0.0; system.modes()];
-        Self { points: PointsBetween::new(system.points), of_modes: [list(), list()] }
+        Self { points: PointsBetween::new(system.points), of_modes: [list(), list(), list()] }
     }
 
-    /// Of a part of a series that ends with `η` and `g`.
+    /// Of a part of a series that ends with a state and `g`.
     #[inline(always)]
-    fn look(&mut self, system: &System, series: &Series, to: f64, (eta, g): (&[f64], &[f64])) {
-        let modes = series.modes;
-        let [of_eta, of_g] = &mut self.of_modes;
-        series.bends(&series.eta, to, of_eta);
-        series.bends(&series.g, to, of_g);
-        let start = [&series.eta[..modes], &series.g[..modes]];
-        self.points.follow(system, Some(start), [eta, g], &self.of_modes);
+    fn look(&mut self, system: &System, series: &Series, to: f64, (end, g): (&State, &[f64])) {
+        let all = [&series.eta, &series.rate, &series.g];
+        for (list, bends) in all.into_iter().zip(&mut self.of_modes) {
+            series.bends(list, to, bends);
+        }
+        let start = all.map(|list| &list[..series.modes]);
+        self.points.follow(system, Some(start), [&end.eta, &end.rate, g], &self.of_modes);
     }
 }
 
@@ -359,7 +359,11 @@ impl Peaks {
                 self.of(Output::Drift(i)).is_above(ends, at(&bends.drifts, i))
             };
             let displacements = ends.map(|end| at(&end.displacements, i));
+            let velocities = ends.map(|end| at(&end.drift_velocities, i));
             self.of(Output::Displacement(i)).is_above(displacements, at(&bends.displacements, i))
+                && self
+                    .of(Output::DriftVelocity(i))
+                    .is_above(velocities, at(&bends.drift_velocities, i))
                 && self.of(Output::Acceleration(i)).is_above(accelerations, at(&bends.of_g, i))
                 && (i == 0 || drifts())
         })
@@ -397,7 +401,7 @@ impl Peaks {
     ) {
         let &SeriesPart { system, series, to, .. } = part;
         let mut room = core::mem::take(&mut self.room);
-        vectorize!(series.instructions, _simd => room.look(system, series, to, (&end.eta, g)));
+        vectorize!(series.instructions, _simd => room.look(system, series, to, (end, g)));
         let PointsBetween { ends, bends } = &room.points;
         let ends = ends.each_ref();
         for i in 0..system.points {
@@ -410,6 +414,10 @@ impl Peaks {
                 let rows = (&system.drifts, i, &*series.eta);
                 self.look_at_rows(Output::Drift(i), of, rows, (series, to));
             }
+            let of = ends.map(|end| at(&end.drift_velocities, i));
+            let of = (of, at(&bends.drift_velocities, i));
+            let rows = (&system.drifts, i, &*series.rate);
+            self.look_at_rows(Output::DriftVelocity(i), of, rows, (series, to));
             let rows = (&system.floors, i, &*series.g);
             if let (Some(with_block), Some(block)) = (system.with_block.get(i), block) {
                 // −Φ g + W b
@@ -488,7 +496,8 @@ impl Peaks {
         let friction = Composed { of_pull: 0.0, of_shear: 0.0, of_friction: kg };
         let slider = Composed { of_pull: kg, of_shear: -1.0, of_friction: kg };
         // The size of constant friction is linear in the time: its ends are its peaks.
-        let by_axis = system.kinetic_per_kg.is_constant() && series.kind == Kind::Slip;
+        let law = &system.kinetic_per_kg;
+        let by_axis = law.is_constant() && law.is_plain() && series.kind == Kind::Slip;
         self.look_at_composed(Output::FrictionForce, &friction, part, by_axis);
         self.look_at_composed(Output::SliderForce, &slider, part, false);
         let mut own = None;
@@ -636,12 +645,13 @@ fn friction_at(system: &System, series: &Series, x: f64) -> [f64; 2] {
     }
     let (w, [normal_n, rate]) = (series.velocity_at(x), series.loads.normal);
     let speed = norm(w);
-    let size = system.kinetic_per_kg.at(speed) * (normal_n + rate * (series.unit * x)).max(0.0);
+    let normal_at_x_n = (normal_n + rate * (series.unit * x)).max(0.0);
+    let size = system.kinetic_per_kg.force(speed, normal_at_x_n);
     if [series.w[0][0], series.w[1][0]] == [0.0; 2] {
         let part = nodes().beside_start(x);
         let [of_x, of_y] = series.friction.each_ref();
         let first = [of_x[0], of_y[0]];
-        let at_rest = system.kinetic_per_kg.at(0.0) * normal_n;
+        let at_rest = system.kinetic_per_kg.force(0.0, normal_n);
         let along = [(of_x, 0), (of_y, 1)]
             .map(|(of, axis)| value(of, x) + (at_rest * series.from[axis] - first[axis]) * part);
         let length = norm(along);

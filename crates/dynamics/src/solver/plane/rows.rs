@@ -125,14 +125,15 @@ impl PointsBetween {
         Self { ends: [at_points(), at_points()], bends: at_points() }
     }
 
-    /// From `η` and `g` of the modes at the start, where that is not known, and at the end, and from how far they bend.
+    /// From `η`, `η̇` and `g` of the modes at the start, where that is not known, and at the end, and from how far they
+    /// bend.
     #[inline(always)]
     pub(super) fn follow(
         &mut self,
         system: &System,
-        start: Option<[&[f64]; 2]>,
-        end: [&[f64]; 2],
-        bends: &[Vec<f64>; 2],
+        start: Option<[&[f64]; 3]>,
+        end: [&[f64]; 3],
+        bends: &[Vec<f64>; 3],
     ) {
         let [first, last] = &mut self.ends;
         if let Some(start) = start {
@@ -143,42 +144,45 @@ impl PointsBetween {
     }
 }
 
-/// Of points along x and y: displacements, drifts and `Φ g`.
+/// Of points along x and y: displacements, drifts, their velocities and `Φ g`.
 #[derive(Default)]
 pub(super) struct AtPoints {
     pub(super) displacements: [Vec<f64>; 2],
     pub(super) drifts: [Vec<f64>; 2],
+    pub(super) drift_velocities: [Vec<f64>; 2],
     pub(super) of_g: [Vec<f64>; 2],
 }
 
 impl AtPoints {
     fn new(points: usize) -> Self {
         let lists = || [vec![0.0; points], vec![0.0; points]];
-        Self { displacements: lists(), drifts: lists(), of_g: lists() }
+        Self { displacements: lists(), drifts: lists(), drift_velocities: lists(), of_g: lists() }
     }
 
-    /// Their values, from `η` and `g` of the modes.
+    /// Their values, from `η`, `η̇` and `g` of the modes.
     #[inline(always)]
-    fn values(&mut self, system: &System, of_modes: [&[f64]; 2]) {
+    fn values(&mut self, system: &System, of_modes: [&[f64]; 3]) {
         self.each(system, of_modes, |rows, list, into| rows.sums(list, into));
     }
 
-    /// How far they depart from their chords at most, from how far `η` and `g` of the modes do.
+    /// How far they depart from their chords at most, from how far `η`, `η̇` and `g` of the modes do.
     #[inline(always)]
-    fn bends(&mut self, system: &System, [of_eta, of_g]: &[Vec<f64>; 2]) {
-        self.each(system, [of_eta, of_g], |rows, list, into| rows.sizes(list, into));
+    fn bends(&mut self, system: &System, of_modes: &[Vec<f64>; 3]) {
+        let of_modes = of_modes.each_ref().map(Vec::as_slice);
+        self.each(system, of_modes, |rows, list, into| rows.sizes(list, into));
     }
 
     #[inline(always)]
     fn each(
         &mut self,
         system: &System,
-        [of_eta, of_g]: [&[f64]; 2],
+        [of_eta, of_rate, of_g]: [&[f64]; 3],
         of: impl Fn(&Rows, &[f64], &mut [f64]),
     ) {
         for axis in 0..2 {
             of(&system.floors[axis], of_eta, &mut self.displacements[axis]);
             of(&system.drifts[axis], of_eta, &mut self.drifts[axis]);
+            of(&system.drifts[axis], of_rate, &mut self.drift_velocities[axis]);
             of(&system.floors[axis], of_g, &mut self.of_g[axis]);
         }
     }

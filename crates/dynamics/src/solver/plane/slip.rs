@@ -61,7 +61,8 @@ impl Plane<'_> {
         }
         self.near_s = near_s;
         self.force.forget();
-        let whole_s = self.system.within_reach(left_s).min(near_s);
+        let pressed_s = self.system.hold.reach(loads.normal);
+        let whole_s = self.system.within_reach(left_s).min(near_s).min(pressed_s);
         let mut step_s = whole_s.min(self.next_s);
         for _ in 0..MOST_LENGTHS {
             match self.try_slip(at, starts, (loads, step_s)) {
@@ -131,7 +132,7 @@ impl Plane<'_> {
 
     /// Finds the velocities at the nodes of a step without friction; the part of it that a series takes, if that is less.
     fn go_freely(&mut self, starts: bool, (loads, step_s): (Loads, f64)) -> Option<f64> {
-        self.force.press(&loads, step_s);
+        self.force.press(&self.system.kinetic_per_kg, &loads, step_s);
         if !starts {
             let of = (&self.state, &loads);
             if let Some(free) = self.influence.free(&self.system, of, step_s, &mut self.series) {

@@ -6,7 +6,7 @@ use super::speed::{path_m, slope_of, turns};
 use super::stop::{Instant, REST};
 use super::system::Loads;
 use super::vector::{inner, norm};
-use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, value};
+use crate::linear::polynomial::{DEGREE, Polynomial, value};
 use crate::solver::ground::Stretch;
 use crate::solver::slider::{ROUNDING, falls_below, first_crossing, leading};
 
@@ -16,7 +16,8 @@ impl Plane<'_> {
         let left_s = stretch.to_s - at_s;
         let loads = self.loads(stretch, at_s);
         self.expand_stick(loads, left_s);
-        let mut part = self.series.part;
+        let change_n = loads.normal[1] * self.series.unit;
+        let mut part = self.series.part.min(self.system.hold.reach([loads.normal[0], change_n]));
         let distance = self.distance();
         if let Some(release) = self.first_release(&distance, part) {
             (part, self.is_released) = (release, true);
@@ -33,9 +34,7 @@ impl Plane<'_> {
     pub(super) fn distance(&self) -> Polynomial {
         let p = &self.series.friction;
         let [normal, rate] = self.series.loads.normal;
-        let radius = self.system.hold.squared_radius([normal, rate * self.series.unit]);
-        let mut distance = ZERO;
-        distance[..3].copy_from_slice(&radius);
+        let mut distance = self.system.hold.squared_radius([normal, rate * self.series.unit]);
         let last = DEGREE.min(2 * self.series.degree);
         for (k, distance) in distance[..=last].iter_mut().enumerate() {
             *distance -= square(&p[0], k) + square(&p[1], k);

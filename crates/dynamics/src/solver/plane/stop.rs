@@ -37,7 +37,7 @@ impl Instant {
         let pull = state.pull(system, loads.normal[0], g);
         let speed = norm(state.w);
         let [friction, at_rest] =
-            [speed, 0.0].map(|r| system.kinetic_per_kg.at(r) * loads.normal[0]);
+            [speed, 0.0].map(|r| system.kinetic_per_kg.force(r, loads.normal[0]));
         Self {
             speed,
             pull,

@@ -157,6 +157,7 @@ impl OnLine<'_> {
             peak_displacement_m: size(storey.peak_displacement_m),
             peak_drift_m: size(storey.peak_drift_m),
             peak_drift_ratio: storey.peak_drift_ratio.map(size),
+            peak_drift_velocity_m_per_s: size(storey.peak_drift_velocity_m_per_s),
         };
         Demands {
             peak_sliding_displacement_m: size(d.peak_sliding_displacement_m),

@@ -79,7 +79,7 @@ impl System {
     /// # Errors
     /// [`SolveError::NotTaken`] that names what is not.
     pub(in crate::solver) fn new(model: &Model) -> Result<Self, SolveError> {
-        let slider = model.slider().isotropic().map_err(refused)?;
+        let slider = model.slider().isotropic(model.normal_n()).map_err(refused)?;
         if !model.contents().is_empty() {
             return Err(refused("contents"));
         }
@@ -136,7 +136,7 @@ impl System {
     /// # Errors
     /// [`SolveError::NotTaken`] where friction is not the same in all directions.
     pub(in crate::solver) fn under_friction_of(&self, model: &Model) -> Result<Self, SolveError> {
-        let slider = model.slider().isotropic().map_err(refused)?;
+        let slider = model.slider().isotropic(model.normal_n()).map_err(refused)?;
         let per_kg = 1.0 / self.block_kg;
         let (hold, kinetic_per_kg) = (slider.hold.times(per_kg), slider.kinetic.times(per_kg));
         Ok(Self { hold, kinetic_per_kg, ..self.clone() })
@@ -144,7 +144,7 @@ impl System {
 
     /// Of a structure by its modes, each of which may move along both axes.
     fn of_modes(model: &Model, structure: &Structure) -> Result<Self, SolveError> {
-        let slider = model.slider().isotropic().map_err(refused)?;
+        let slider = model.slider().isotropic(model.normal_n()).map_err(refused)?;
         if structure.in_plane.is_empty() {
             return Err(refused("a structure whose modes do not say what they do along y"));
         }

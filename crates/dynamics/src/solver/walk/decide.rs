@@ -96,7 +96,7 @@ impl<'a, P: Straight<'a> + ?Sized> Walk<'a, P> {
         for to in [Direction::Negative, Direction::Positive] {
             let ends = [[asked[0], normal], last];
             let ends = ends.map(|[asked, n]| hold.against_n(to, n) + to.sign() * asked);
-            if ends[0].min(ends[1]) > hidden {
+            if ends[0].min(ends[1]) > hidden + hold.bend_n(to, [normal, rise], part) {
                 continue;
             }
             if let Some(at) = self.release_towards(i, to, part)
