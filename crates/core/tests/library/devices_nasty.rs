@@ -120,7 +120,6 @@ fn values(model: &Model, response: &Response) -> Vec<f64> {
         list.extend([
             storey.peak_displacement_m,
             storey.peak_drift_m,
-            storey.peak_drift_velocity_m_per_s,
             storey.peak_acceleration_m_per_s2,
         ]);
     }

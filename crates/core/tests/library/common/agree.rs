@@ -80,7 +80,6 @@ fn values(response: &Response) -> Vec<f64> {
     for storey in &d.storeys {
         list.push(storey.peak_displacement_m);
         list.push(storey.peak_drift_m);
-        list.push(storey.peak_drift_velocity_m_per_s);
         list.push(storey.peak_acceleration_m_per_s2);
     }
     list.push(d.sliding_path_m);
