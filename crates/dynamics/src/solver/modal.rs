@@ -200,7 +200,8 @@ impl<'a> Modal<'a> {
         let [mut x, next] = buffers.states.each_mut().map(|x| Buffers::list(x, stride, 0.0));
         x.copy_from_slice(&tables.start);
         let outputs = Output::count(system.points(), 0);
-        let groups = outputs.div_ceil(8);
+        // At least as many as what runs ahead has registers.
+        let groups = outputs.div_ceil(8).max(dense::REGISTERS);
         let values = Buffers::list(&mut buffers.values, groups, Eight::ZERO);
         let [mut amplitudes, f, g] =
             buffers.modes.each_mut().map(|list| Buffers::list(list, n, 0.0));

@@ -8,7 +8,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, f64x8};
 
 use super::equations::{OneStorey, unit};
-use super::lanes::{Abreast, BATCH, Eight, Five, Four, combine4, combine8, larger, times8};
+use super::lanes::{Abreast, BATCH, Eight, Five, Four, combine4, larger, times8};
 use crate::linear::{QUIET, System};
 use crate::response::output::{self, Output};
 use crate::solver::outputs::OutputRow;
@@ -38,32 +38,60 @@ pub(super) fn each(kept: &Kept) -> [f64; 8 * REGISTERS] {
 
 /// Registers made one by one.
 #[inline(always)]
-pub(super) fn by_register<S: Simd>(of: impl FnMut(usize) -> f64x8<S>) -> Registers<S> {
-    core::array::from_fn(of)
+pub(super) fn by_register<S: Simd>(mut of: impl FnMut(usize) -> f64x8<S>) -> Registers<S> {
+    // A loop has the vector instructions of what it stands in; a function of the library has none.
+    let mut all = [of(0); REGISTERS];
+    for (g, register) in all.iter_mut().enumerate().skip(1) {
+        *register = of(g);
+    }
+    all
 }
 
 /// Outputs as they are kept.
 #[inline(always)]
 pub(super) fn kept<S: Simd>(outputs: Registers<S>) -> Kept {
-    outputs.map(|register| Eight(register.to_array()))
+    let mut kept = [Eight::ZERO; REGISTERS];
+    for (kept, register) in kept.iter_mut().zip(&outputs) {
+        register.store_slice(&mut kept.0);
+    }
+    kept
 }
 
 /// Outputs that have been kept.
 #[inline(always)]
 pub(super) fn loaded<S: Simd>(simd: S, kept: &Kept) -> Registers<S> {
-    by_register(|g| kept[g].load(simd))
+    by_register(
+        #[inline(always)]
+        |g| kept[g].load(simd),
+    )
 }
 
 /// The larger sizes, one by one.
 #[inline(always)]
 pub(super) fn larger_sizes<S: Simd>(a: Registers<S>, b: Registers<S>) -> Registers<S> {
-    by_register(|g| larger(a[g].abs(), b[g].abs()))
+    by_register(
+        #[inline(always)]
+        |g| larger(a[g].abs(), b[g].abs()),
+    )
+}
+
+/// Sums, one by one.
+#[inline(always)]
+pub(super) fn plus<S: Simd>(a: Registers<S>, b: Registers<S>) -> Registers<S> {
+    by_register(
+        #[inline(always)]
+        |g| a[g] + b[g],
+    )
 }
 
 /// A bit for each that is above another.
 #[inline(always)]
 pub(super) fn above<S: Simd>(a: Registers<S>, b: Registers<S>) -> u64 {
-    (0..REGISTERS).fold(0, |bits, g| bits | a[g].simd_gt(b[g]).to_bitmask() << (8 * g))
+    let mut bits = 0;
+    for g in 0..REGISTERS {
+        bits |= a[g].simd_gt(b[g]).to_bitmask() << (8 * g);
+    }
+    bits
 }
 
 /// Outputs behind each gate.
@@ -78,7 +106,11 @@ pub(super) const BEHIND: [u64; 5] = [
 /// Outputs behind those gates whose bits are set.
 #[inline(always)]
 pub(super) fn behind(gates: u64) -> u64 {
-    (0..BEHIND.len()).fold(0, |bits, gate| bits | (BEHIND[gate] * ((gates >> gate) & 1)))
+    let mut bits = 0;
+    for (gate, outputs) in BEHIND.into_iter().enumerate() {
+        bits |= outputs * ((gates >> gate) & 1);
+    }
+    bits
 }
 
 /// What turns `f` and `u` into outputs: `Φ`, what `f` and `u` add to the overturning moment, `g sin θ`.
@@ -146,20 +178,31 @@ impl Outputs {
     /// How far they are off at most where the gates are off by so much.
     #[inline(always)]
     pub(super) fn slack<S: Simd>(&self, simd: S, gates: [f64; 5]) -> Registers<S> {
-        by_register(|g| {
-            let of = |gate: usize| times8(simd, &self.of_gates[gate][g], gates[gate]);
-            ((of(0) + of(1)) + (of(2) + of(3))) + of(4)
-        })
+        by_register(
+            #[inline(always)]
+            |g| {
+                let mut sum = times8(simd, &self.of_gates[0][g], gates[0]);
+                for gate in 1..gates.len() {
+                    sum += times8(simd, &self.of_gates[gate][g], gates[gate]);
+                }
+                sum
+            },
+        )
     }
 
     /// In a state under an input.
     #[inline(always)]
     pub(super) fn at<S: Simd>(&self, simd: S, x: [f64; 4], input: f64) -> Registers<S> {
-        by_register(|g| {
-            let input = times8(simd, &self.of_input[g], input);
-            let columns = self.columns.each_ref().map(|column| column[g]);
-            combine8(simd, &columns, x) + (input + self.constant[g].load(simd))
-        })
+        by_register(
+            #[inline(always)]
+            |g| {
+                let [a, b, c, d] = &self.columns;
+                let of_block = times8(simd, &a[g], x[0]) + times8(simd, &b[g], x[1]);
+                let of_storey = times8(simd, &c[g], x[2]) + times8(simd, &d[g], x[3]);
+                let by_input = times8(simd, &self.of_input[g], input);
+                (of_block + of_storey) + (by_input + self.constant[g].load(simd))
+            },
+        )
     }
 }
 

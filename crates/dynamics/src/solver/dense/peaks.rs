@@ -6,7 +6,7 @@ use fearless_simd::{f64x4, f64x8};
 use super::ahead::Ahead;
 use super::event::Segment;
 use super::lanes::{Abreast, Eight, Four, eight, greatest, larger};
-use super::outputs::{Kept, REGISTERS, above, by_register, each, kept, larger_sizes, loaded};
+use super::outputs::{Kept, REGISTERS, above, by_register, each, kept, larger_sizes, loaded, plus};
 use super::series::{Series, Span};
 use crate::linear::polynomial::{ZERO, largest};
 use crate::response::Mode;
@@ -172,15 +172,21 @@ impl<S: Simd> Ahead<'_, '_, S> {
                 let (first, last) = (of.at(simd, segment.x, input[0]), of.at(simd, end, input[1]));
                 let slack = of.slack(simd, slack);
                 let attained = larger_sizes(first, last);
-                let bound = by_register(|g| attained[g] + slack[g]);
+                let bound = plus(attained, slack);
                 if above(bound, self.peak) == 0 {
                     return;
                 }
                 self.peak = larger_sizes(self.peak, attained);
                 self.set_limits();
-                let bound = by_register(|g| bound_between(simd, [first[g], last[g]], slack[g]));
+                let bound = by_register(
+                    #[inline(always)]
+                    |g| bound_between(simd, [first[g], last[g]], slack[g]),
+                );
                 // A few ulp are no more than the rounding of the ends.
-                let most = self.peak.map(|peak| peak + peak * eight(simd, 1e-15));
+                let most = by_register(
+                    #[inline(always)]
+                    |g| self.peak[g] + self.peak[g] * eight(simd, 1e-15),
+                );
                 if above(bound, most) != 0 {
                     let mut segment = *segment;
                     segment.span.rest = t;
@@ -253,7 +259,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
             let end = self.after::<SLIP>(k + 1, x, a, force_n).to_array();
             let last = of.at(simd, end, if SLIP { force_n } else { a[k + 1] });
             let attained = larger_sizes(first, last);
-            if above(by_register(|g| attained[g] + slack[g]), self.peak) != 0 {
+            if above(plus(attained, slack), self.peak) != 0 {
                 let change = (a[k + 1] - a[k]) / pieces as f64;
                 let mut x = start;
                 for piece in 0..pieces {
@@ -277,11 +283,15 @@ impl<S: Simd> Ahead<'_, '_, S> {
         let (first, last) = (of.at(simd, segment.x, input[0]), of.at(simd, end, input[1]));
         let slack = of.slack(simd, self.slack::<SLIP>(&series, rest).to_array());
         // A peak on the upper side, and on the lower one.
-        let [upper, lower] = [1.0, -1.0].map(|sign| {
-            let sign = eight(simd, sign);
-            let most = by_register(|g| larger(sign * first[g], sign * last[g]) + slack[g]);
-            above(most, self.peak)
-        });
+        let most = by_register(
+            #[inline(always)]
+            |g| larger(first[g], last[g]) + slack[g],
+        );
+        let least = by_register(
+            #[inline(always)]
+            |g| larger(-first[g], -last[g]) + slack[g],
+        );
+        let (upper, lower) = (above(most, self.peak), above(least, self.peak));
         let mut open = upper | lower;
         self.peak = larger_sizes(self.peak, larger_sizes(first, last));
         let (mut peak, first) = (kept(self.peak), kept(first));
