@@ -349,6 +349,12 @@ impl Slider {
         self.radius_m().filter(|_| varying || self.rate().is_some())
     }
 
+    /// Exponent by which friction falls with a pressure that varies: under a normal force that does, where it is not 0.
+    #[must_use]
+    pub fn pressure_exponent(&self, varying: bool) -> Option<f64> {
+        self.pressure().map(PressureLaw::exponent).filter(|exponent| varying && *exponent > 0.0)
+    }
+
     /// Stiffness in N/m of its spring, of a pendulum under a normal force; 0 without either.
     #[must_use]
     pub fn stiffness_n_per_m(&self, normal_n: f64) -> f64 {

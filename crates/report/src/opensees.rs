@@ -351,10 +351,10 @@ fn expressible(model: &Model, motion: &GroundMotion) -> Result<SliderElement, Ch
     let slider = model.slider();
     let vertical = motion.vertical_m_per_s2();
     let no = |what: &str, expected: &str, found: &str| Err(refused(what, expected, found));
-    if let Some(law) = slider.pressure().filter(|law| vertical.is_some() && law.exponent() > 0.0) {
+    if let Some(exponent) = slider.pressure_exponent(vertical.is_some()) {
         let expected =
             "0 under vertical motion: OpenSees' friction models follow the pressure by other laws";
-        return no("slider.pressure.exponent", expected, &law.exponent().to_string());
+        return no("slider.pressure.exponent", expected, &exponent.to_string());
     }
     let element = if let Some(series) = slider.series() {
         in_series(series)?;

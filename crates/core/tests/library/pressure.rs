@@ -276,7 +276,7 @@ fn prop_random_systems_in_two_directions_are_certified() {
 }
 
 #[test]
-#[ignore = "takes minutes"]
+#[ignore = "minutes: cargo xtask nightly"]
 fn prop_many_random_systems_are_certified() {
     drawn_are_certified(0..2000, false);
     drawn_are_certified(0..2000, true);

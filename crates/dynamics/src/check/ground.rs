@@ -27,7 +27,7 @@ impl Load {
     }
 
     /// The same of a force on a mass, in N: `m |dÜ/dt| δt`.
-    pub(super) fn rounding_of_mass(&self, (instant_s, _): (f64, f64), mass_kg: f64) -> f64 {
+    pub(super) fn rounding_of_mass(&self, instant_s: f64, mass_kg: f64) -> f64 {
         instant_s * mass_kg * self.slope.abs()
     }
 }
@@ -84,8 +84,10 @@ impl<'a> Ground<'a> {
             slope: model.slope_m_per_s2(),
             gravity: model.normal_gravity_m_per_s2(),
             total_kg: model.total_mass_kg(),
-            follows_pressure: motion.vertical_m_per_s2().is_some()
-                && model.slider().pressure().is_some_and(|law| law.exponent() > 0.0),
+            follows_pressure: model
+                .slider()
+                .pressure_exponent(motion.vertical_m_per_s2().is_some())
+                .is_some(),
             cursor: 0,
             blur: (8.0 * f64::EPSILON * end_s, 0.0),
         };

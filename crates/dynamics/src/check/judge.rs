@@ -5,7 +5,7 @@ use super::collocation::{POINTS, Rule};
 use super::demands::{Comparison, Rounding, Totals};
 use super::energy::Books;
 use super::events::Events;
-use super::ground::Ground;
+use super::ground::{Ground, Load};
 use super::law::{Law, StickDemand};
 use super::near::{Dips, dip};
 use super::outputs::Outputs;
@@ -448,6 +448,12 @@ where
             }
         }
         (least, margin)
+    }
+
+    /// What the rounding of `N` makes of what the slider's friction follows, in N.
+    pub(super) fn pressed_rounding(&self, load: &Load) -> f64 {
+        let rounding = load.normal_rounding(self.ground.blur());
+        self.law.pressed_rounding(load.normal, rounding)
     }
 
     /// Takes what a change of mode has been found to be.

@@ -144,9 +144,8 @@ impl Law {
             radius_m: model.slider().pendulum_radius_m(vertical).filter(|_| vertical),
             pressure: model
                 .slider()
-                .pressure()
-                .filter(|law| vertical && law.exponent() > 0.0)
-                .map(|law| [law.exponent(), model.normal_n()]),
+                .pressure_exponent(vertical)
+                .map(|exponent| [exponent, model.normal_n()]),
             stop: model.stop().copied(),
         }
     }

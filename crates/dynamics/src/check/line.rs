@@ -175,8 +175,7 @@ impl<'a> Directions for Judge<'a, Line<'a>> {
                     (h.friction_force_n[k] - own).abs()
                 }
             };
-            let rounding = load.normal_rounding(self.ground.blur());
-            let rounding = self.law.most() * self.law.pressed_rounding(load.normal, rounding);
+            let rounding = self.law.most() * self.pressed_rounding(&load);
             force = force.min(excess(off - rounding));
         }
         self.figures.table[0] = larger(self.figures.table[0], table);

@@ -13,7 +13,8 @@ pub(crate) struct Restraint {
 }
 
 /// The force on the ground while the block slides:
-/// `F = force + k s + c ṡ + N (of_normal + of_normal_s s) + σ μ(|ṡ|) N`.
+/// `F = force + k s + c ṡ + N (of_normal + of_normal_s s) + σ μ(|ṡ|) N`, or by what friction follows in place of the last
+/// `N`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SlipForce {
     /// `k` and `c`.

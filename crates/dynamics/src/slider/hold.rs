@@ -3,10 +3,9 @@
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
-use super::Direction;
-use super::Pressing;
 use super::branch::{Restraint, SlipForce};
 use super::rate::Coefficient;
+use super::{Direction, Pressing};
 use crate::linear::lanes::{eight, greatest, least};
 use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, curvature_bound};
 

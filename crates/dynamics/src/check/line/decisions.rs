@@ -60,9 +60,9 @@ impl<'a> Judge<'a, Line<'a>> {
             None => self.law.most(),
             Some(c) => c.static_friction * c.mass_kg / self.structure().total_kg,
         };
-        let normal = load.normal_rounding(self.ground.blur());
-        let normal = if i == 0 { self.law.pressed_rounding(load.normal, normal) } else { normal };
-        load.rounding_of_mass(self.ground.blur(), mass_kg) + mu * normal
+        let blur = self.ground.blur();
+        let normal = if i == 0 { self.pressed_rounding(load) } else { load.normal_rounding(blur) };
+        load.rounding_of_mass(blur.0, mass_kg) + mu * normal
     }
 
     /// Between which `T/N` the slider is held after what it did before a knot; `leans` where rigid stops hold

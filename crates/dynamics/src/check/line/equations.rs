@@ -242,8 +242,6 @@ impl LineEquations<'_> {
         let (s, bodies) = (self.structure, &acting.bodies);
         let n = s.masses_kg.len();
         let shift = drive.load(SHIFT, parts);
-        let pressed = self.pressed(drive, parts);
-        let taken = drive.taken.map(|taken| pressed.map(|pressed| taken * pressed));
         let (is_rigid, in_series) = (self.law.restitution().is_some(), self.law.series.is_some());
         let (mut stop, mut slider, mut friction) = ([0.0; N], [0.0; N], acting.friction);
         for i in 0..N {
@@ -251,8 +249,11 @@ impl LineEquations<'_> {
             stop[i] = drive.stop[0] * x[0][i] + drive.stop[1] * v[0][i] - shift[i];
             slider[i] =
                 friction[i] - (s.spring + restoring) * x[0][i] - s.damper * v[0][i] - stop[i];
-            if is_rigid {
-                friction[i] = friction[i].max(taken[0][i]).min(taken[1][i]);
+        }
+        if is_rigid {
+            let ([least, most], pressed) = (drive.taken, self.pressed(drive, parts));
+            for i in 0..N {
+                friction[i] = friction[i].max(least * pressed[i]).min(most * pressed[i]);
                 stop[i] += friction[i] - acting.friction[i];
             }
         }

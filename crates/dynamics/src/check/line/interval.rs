@@ -28,7 +28,7 @@ pub(super) struct IntervalLaw<'m> {
     pub(super) hold: [f64; 2],
     /// Between which `T/N` friction takes the demand; a rigid stop takes the rest.
     taken: [f64; 2],
-    /// Sum of the coefficients of what slides.
+    /// Coefficient of the slider, where it slides, and the sum of those of contents that do.
     slides: [f64; 2],
 }
 
@@ -43,7 +43,7 @@ pub(super) struct LinePath {
     knot: usize,
     step: LineStep,
     fastest: Vec<f64>,
-    /// Largest rounding of `N`.
+    /// Largest rounding of `N`, and of what the slider's friction follows.
     normal_rounding: f64,
     pressed_rounding: f64,
     /// Interface by interface, the largest speed against the direction claimed, and the force that it says is wrong.

@@ -97,9 +97,8 @@ impl<'a> PlaneJudge<'a> {
     fn normal_drift(&self, state: &State, loads: &Loads) -> f64 {
         let frame = self.frame();
         let normal_n = loads[0].normal_rounding(self.ground.blur());
-        let pressed_n = self.law.pressed_rounding(loads[0].normal, normal_n);
         let follows = frame.curvature_per_m * norm([state.x[0], state.x[1]]);
-        frame.most * pressed_n + follows * normal_n
+        frame.most * self.pressed_rounding(&loads[0]) + follows * normal_n
     }
 
     /// Compares the end of the path with what is stored there.

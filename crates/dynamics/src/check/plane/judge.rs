@@ -163,11 +163,9 @@ impl<'a> PlaneJudge<'a> {
 
     /// What the rounding of times makes of what a block at rest is asked for, less what holds it.
     pub(super) fn rounding(&self, loads: &Loads) -> f64 {
-        let blur = self.ground.blur();
-        let normal = loads[0].normal_rounding(blur);
-        let pressed = self.law.pressed_rounding(loads[0].normal, normal);
-        let table = loads.iter().map(|load| load.rounding_of_mass(blur, self.frame().block_kg));
-        table.sum::<f64>() + self.frame().fixed * pressed
+        let ((instant_s, _), frame) = (self.ground.blur(), self.frame());
+        let table = loads.iter().map(|load| load.rounding_of_mass(instant_s, frame.block_kg));
+        table.sum::<f64>() + frame.fixed * self.pressed_rounding(&loads[0])
     }
 
     /// All that acts in a state.
@@ -213,8 +211,7 @@ impl<'a> PlaneJudge<'a> {
                 Some(u) => norm([0, 1].map(|i| friction[i] + slid * u[i])),
                 None => (norm(friction) - slid).abs(),
             };
-            let pressed_n = self.law.pressed_rounding(loads[0].normal, normal_n);
-            side.excess = excess(off - frame.most * pressed_n);
+            side.excess = excess(off - frame.most * self.pressed_rounding(&loads[0]));
         }
         let inertia = frame.inertia(block);
         let balance = [0, 1].map(|i| inertia[i] - base[i] + spring[i] + damper[i] - friction[i]);
