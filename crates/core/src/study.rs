@@ -12,6 +12,7 @@ mod demanded;
 mod design;
 pub mod engine;
 pub(crate) mod notices;
+mod pieces;
 pub(crate) mod records;
 mod rows;
 pub mod summary;
@@ -424,7 +425,7 @@ impl Study {
         engine: &Engine<'_>,
     ) -> Result<std::borrow::Cow<'_, [Sample]>, Stopped> {
         let made = |range: std::ops::Range<u64>| -> Result<Vec<Sample>, Stopped> {
-            let chunks: Vec<_> = chunks(range).collect();
+            let chunks: Vec<_> = chunks(range, CHUNK).collect();
             let of_chunk = |i: usize| -> Result<Vec<Sample>, Stopped> {
                 Ok(chunks[i].clone().map(|index| self.sample(index)).collect())
             };
@@ -466,11 +467,13 @@ impl Study {
     }
 }
 
-/// A range in pieces that are worth handing to a thread.
-fn chunks(range: std::ops::Range<u64>) -> impl Iterator<Item = std::ops::Range<u64>> {
-    const LENGTH: u64 = 32;
+/// Models that are worth handing to a thread to be made.
+const CHUNK: u64 = 32;
+
+/// A range in pieces of a length.
+fn chunks(range: std::ops::Range<u64>, length: u64) -> impl Iterator<Item = std::ops::Range<u64>> {
     let end = range.end;
-    range.step_by(LENGTH as usize).map(move |start| start..(start + LENGTH).min(end))
+    range.step_by(length as usize).map(move |start| start..(start + length).min(end))
 }
 
 /// The bounds of friction that a plan runs.

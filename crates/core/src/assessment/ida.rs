@@ -378,7 +378,8 @@ pub fn run_ida(request: &IdaRequest<'_>, engine: &Engine<'_>) -> Result<IdaRun, 
         }
         (_, Some(hunt)) => {
             engine.plan(curves_count as u64 * RUNS_OF_A_HUNT);
-            engine.map(curves_count, |curve| {
+            let samples = |curve: usize| suite.records[curve % records].motion.len();
+            engine.map_costliest_first(curves_count, samples, |curve| {
                 let mut runs: Vec<(f64, CaseRun<Vec<f64>>)> = Vec::new();
                 let mut thread = OneThread::new(&all_runs);
                 let parts = &parts[curve / records];

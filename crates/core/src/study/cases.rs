@@ -9,6 +9,7 @@ use core::borrow::Borrow;
 use super::certified::{Certified, RunKind, Verdict, chosen, is_drawn};
 use super::demanded::TRAVEL_USED_UP;
 use super::engine::{Engine, Running};
+use super::pieces::runs_in_piece;
 use super::records::Record;
 use crate::check::{self, Certificate};
 use crate::error::{MotionError, RunError, Stopped};
@@ -19,9 +20,6 @@ use crate::notice::{Notice, NoticeKind};
 use crate::response::{Response, flat_geometry};
 use crate::solver::{self, PreparedMotion, Workspace};
 use crate::table::{Cells, Column, Table};
-
-/// Runs of one design that one thread takes: the model is prepared once for them.
-const PIECE: usize = 16;
 
 /// What a run is of. Numbers count from 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -251,8 +249,14 @@ impl<'a, M: Clone + Send + Sync> Runs<'a, M> {
         keep: impl Fn(&Case, &Response, &GroundMotion) -> R + Sync,
     ) -> Result<Vec<CaseRun<R, M>>, Stopped> {
         let alike = |a: &Case, b: &Case| (a.design, a.bound) == (b.design, b.bound);
+        let in_piece = |cases: &[Case]| {
+            let parts = design(&cases[0]).as_ref().ok();
+            let motion = self.records.get(cases[0].record).map(|record| &record.motion);
+            parts.zip(motion).map_or(cases.len(), |(of, motion)| runs_in_piece(&of.model, motion))
+        };
         let of_design = cases.chunk_by(alike);
-        let pieces: Vec<&[Case]> = of_design.flat_map(|cases| cases.chunks(PIECE)).collect();
+        let pieces: Vec<&[Case]> =
+            of_design.flat_map(|cases| cases.chunks(in_piece(cases))).collect();
         self.engine.plan(cases.len() as u64);
         self.pieces(&pieces, |case| (design(case), None), keep)
     }
@@ -265,7 +269,9 @@ impl<'a, M: Clone + Send + Sync> Runs<'a, M> {
         design: impl Fn(&Case) -> (&'d Result<Parts, RunError>, Option<f64>) + Sync,
         keep: impl Fn(&Case, &Response, &GroundMotion) -> R + Sync,
     ) -> Result<Vec<CaseRun<R, M>>, Stopped> {
-        let ran = self.engine.map(pieces.len(), |i| {
+        let samples = |case: &Case| self.records.get(case.record).map_or(1, |of| of.motion.len());
+        let cost = |i: usize| pieces[i].as_ref().iter().map(samples).sum();
+        let ran = self.engine.map_costliest_first(pieces.len(), cost, |i| {
             let mut thread = OneThread::new(self);
             let cases = pieces[i].as_ref().iter();
             let ran: Vec<_> = cases.map(|case| thread.run(*case, design(case), &keep)).collect();

@@ -3,8 +3,8 @@
 //!
 //! Everything that takes more than one run goes through an [`Engine`]: studies, spectra, incremental
 //! dynamic analyses, designs, identification. Work is shared by the threads of the pool that the
-//! caller runs it in (rayon's `ThreadPool::install`); outside of a pool, and without the feature
-//! `parallel`, it is done on the caller's own thread. The results are the same.
+//! caller runs it in (rayon's `ThreadPool::install`): each takes the next piece when it is free. Outside of a
+//! pool, and without the feature `parallel`, it is done on the caller's own thread. The results are the same.
 
 use core::cell::Cell;
 use core::ops::ControlFlow;
@@ -13,6 +13,7 @@ use std::sync::Arc;
 
 use crate::error::{SolveError, Stopped};
 use crate::model::Model;
+use crate::numerics::sort;
 use crate::progress::Cancel;
 use crate::response::Response;
 use crate::solver::{Prepared, PreparedMotion, Workspace};
@@ -91,18 +92,51 @@ impl<'a> Engine<'a> {
     pub fn map<R: Send>(
         &self,
         count: usize,
-        work: impl Fn(usize) -> Result<R, Stopped> + Sync + Send,
+        work: impl Fn(usize) -> Result<R, Stopped> + Sync,
     ) -> Result<Vec<R>, Stopped> {
-        let checked = |i: usize| {
+        self.begun_in_order(count, usize::MAX, |i| {
             self.check()?;
             work(i)
-        };
+        })
+    }
+
+    /// `work` of every number below `count`, in order; the costliest is begun first, that no thread is left with it
+    /// when the others have ended.
+    ///
+    /// # Errors
+    /// As [`Engine::map`].
+    pub fn map_costliest_first<R: Send>(
+        &self,
+        count: usize,
+        cost: impl Fn(usize) -> usize,
+        work: impl Fn(usize) -> Result<R, Stopped> + Sync,
+    ) -> Result<Vec<R>, Stopped> {
+        let mut order: Vec<(usize, usize)> = (0..count).map(|i| (cost(i), i)).collect();
+        sort(&mut order, |a, b| b.0.cmp(&a.0));
+        let results = self.map(count, |place| work(order[place].1))?;
+        let mut results: Vec<(usize, R)> = order.into_iter().map(|(_, i)| i).zip(results).collect();
+        sort(&mut results, |a, b| a.0.cmp(&b.0));
+        Ok(results.into_iter().map(|(_, result)| result).collect())
+    }
+
+    /// `work` of every number below `count`, in order; each is begun after those before it, and at most `at_once` are
+    /// begun and not ended.
+    ///
+    /// # Errors
+    /// The first in order, after the pieces in work.
+    pub fn begun_in_order<R: Send, E: Send>(
+        &self,
+        count: usize,
+        at_once: usize,
+        work: impl Fn(usize) -> Result<R, E> + Sync,
+    ) -> Result<Vec<R>, E> {
         #[cfg(feature = "parallel")]
         if count > 1 && rayon::current_thread_index().is_some() {
-            use rayon::prelude::*;
-            return (0..count).into_par_iter().map(checked).collect();
+            let at_once = at_once.min(rayon::current_num_threads()).min(count);
+            return parallel::Pieces::new(count, &work).run(at_once);
         }
-        (0..count).map(checked).collect()
+        let _ = at_once;
+        (0..count).map(work).collect()
     }
 
     /// The same for pieces that are one run each.
@@ -112,7 +146,7 @@ impl<'a> Engine<'a> {
     pub fn runs<R: Send>(
         &self,
         count: usize,
-        run: impl Fn(usize) -> R + Sync + Send,
+        run: impl Fn(usize) -> R + Sync,
     ) -> Result<Vec<R>, Stopped> {
         self.plan(count as u64);
         self.map(count, |i| {
@@ -130,20 +164,6 @@ impl<'a> Engine<'a> {
             let asked = if long.replace(true) { self.done(0) } else { self.check() };
             asked.map_or_else(|Stopped| ControlFlow::Break(()), ControlFlow::Continue)
         })
-    }
-
-    /// What two works give, the first on this thread while the second goes on beside it, where there
-    /// is a thread for it.
-    pub fn both<A: Send, B: Send>(
-        &self,
-        first: impl FnOnce() -> A + Send,
-        second: impl FnOnce() -> B + Send,
-    ) -> (A, B) {
-        #[cfg(feature = "parallel")]
-        if rayon::current_thread_index().is_some() {
-            return rayon::join(first, second);
-        }
-        (first(), second())
     }
 }
 
@@ -173,6 +193,58 @@ impl<'a> Running<'a> {
         };
         self.engine
             .watch(|go_on| self.prepared.insert(prepared).demands_while(workspace, motion, go_on))
+    }
+}
+
+#[cfg(feature = "parallel")]
+mod parallel {
+    use core::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+    use std::sync::{Mutex, PoisonError};
+
+    use rayon::ScopeFifo;
+
+    use crate::numerics::sort;
+
+    /// Pieces of work, each of which the next free thread of a pool begins.
+    pub(super) struct Pieces<'w, R, E> {
+        count: usize,
+        work: &'w (dyn Fn(usize) -> Result<R, E> + Sync),
+        next: AtomicUsize,
+        failed: AtomicBool,
+        ended: Mutex<Vec<(usize, Result<R, E>)>>,
+    }
+
+    impl<'w, R: Send, E: Send> Pieces<'w, R, E> {
+        pub(super) fn new(count: usize, work: &'w (dyn Fn(usize) -> Result<R, E> + Sync)) -> Self {
+            let ended = Mutex::new(Vec::with_capacity(count));
+            Self { count, work, next: AtomicUsize::new(0), failed: AtomicBool::new(false), ended }
+        }
+
+        /// Their results in order, or the first error.
+        pub(super) fn run(self, at_once: usize) -> Result<Vec<R>, E> {
+            rayon::scope_fifo(|scope| {
+                (0..at_once).for_each(|_| scope.spawn_fifo(|scope| self.step(scope)));
+            });
+            let mut ended = self.ended.into_inner().unwrap_or_else(PoisonError::into_inner);
+            sort(&mut ended, |a, b| a.0.cmp(&b.0));
+            ended.into_iter().map(|(_, result)| result).collect()
+        }
+
+        /// The next piece. The one after it is a task of its own: a thread that waits for something within a piece
+        /// takes no more than one other.
+        fn step<'s>(&'s self, scope: &ScopeFifo<'s>) {
+            if self.failed.load(Ordering::Relaxed) {
+                return;
+            }
+            let i = self.next.fetch_add(1, Ordering::Relaxed);
+            if i >= self.count {
+                return;
+            }
+            let result = (self.work)(i);
+            self.failed.fetch_or(result.is_err(), Ordering::Relaxed);
+            self.ended.lock().unwrap_or_else(PoisonError::into_inner).push((i, result));
+            scope.spawn_fifo(|scope| self.step(scope));
+        }
     }
 }
 
@@ -212,6 +284,40 @@ mod tests {
         // What comes after does nothing.
         assert_eq!(engine.runs(10, |i| i), Err(Stopped));
         assert_eq!(told.into_inner(), 7);
+    }
+
+    /// On threads or without, results come in their order, and so does the first error.
+    #[test]
+    fn costly_pieces_begin_first_and_few_are_open() {
+        use core::sync::atomic::AtomicUsize;
+        use std::sync::Mutex;
+
+        let check = || {
+            let engine = Engine::unwatched();
+            let begun = Mutex::new(Vec::new());
+            let note = |i: usize| {
+                begun.lock().unwrap().push(i);
+                Ok(i)
+            };
+            let results = engine.map_costliest_first(40, |i| i * 7 % 40, note);
+            assert_eq!(results, Ok((0..40).collect()));
+            let begun = begun.into_inner().unwrap();
+            let place = |i: usize| begun.iter().position(|of| *of == i).unwrap();
+            // 17 costs 39 and 23 costs 1: each thread may be late with one piece.
+            assert!(place(17) < 4 && place(23) > 35, "{begun:?}");
+            let (open, most) = (AtomicUsize::new(0), AtomicUsize::new(0));
+            let count = |i: usize| {
+                most.fetch_max(1 + open.fetch_add(1, Ordering::Relaxed), Ordering::Relaxed);
+                let inner = engine.map(8, |j| Ok(i * j)).unwrap();
+                open.fetch_sub(1, Ordering::Relaxed);
+                if i % 5 == 3 { Err(i) } else { Ok(inner) }
+            };
+            assert_eq!(engine.begun_in_order(20, 2, count), Err(3));
+            assert!(most.into_inner() <= 2);
+        };
+        check();
+        #[cfg(feature = "parallel")]
+        rayon::ThreadPoolBuilder::new().num_threads(4).build().unwrap().install(check);
     }
 
     /// The threads are those of the pool that the caller is in; outside of one there is no other.

@@ -7,7 +7,8 @@ use super::cases::{Case, CaseRun, Cases, Noticed, Runs};
 use super::certified::RunKind;
 use super::engine::Engine;
 use super::notices::{USUAL_FACTORS, coarse_sampling, longest_step_s};
-use super::{Sample, Study, chunks};
+use super::pieces::runs_in_piece;
+use super::{CHUNK, Sample, Study, chunks};
 use crate::error::{RunError, Stopped};
 use crate::motion::GroundMotion;
 use crate::motion::intensity::{IntensityMeasures, LevelMeasure, Measure};
@@ -17,6 +18,9 @@ use crate::response::Demands;
 
 /// Most samples of scaled copies of a record that are held at a time.
 const SAMPLES_AT_ONCE: usize = 4_000_000;
+
+/// Most runs that one thread takes at a time.
+const MOST_IN_PIECE: usize = 2048;
 
 /// One run of a study.
 #[derive(Clone, Debug, PartialEq)]
@@ -92,7 +96,13 @@ impl Study {
             blocks.push(at..end);
             at = end;
         }
-        let rows = engine.map(blocks.len(), |i| self.block(&blocks[i], engine))?;
+        let cost = |i: usize| {
+            let record = self.case(blocks[i].start).record;
+            let samples = self.records.get(record).map_or(1, |record| record.motion.len());
+            samples * (blocks[i].end - blocks[i].start) as usize
+        };
+        let rows =
+            engine.map_costliest_first(blocks.len(), cost, |i| self.block(&blocks[i], engine))?;
         Ok(rows.into_iter().flatten().collect())
     }
 
@@ -116,14 +126,22 @@ impl Study {
         };
         let samples = self.samples(these.clone(), engine)?;
         let sample = |case: &Case| &samples[(self.cases.model(case) - these.start) as usize];
-        let piece = |chunk: Range<u64>| {
+        let first = samples.iter().find_map(|sample| sample.parts.as_ref().ok());
+        let motion = self.records.get(motions[0].0).map(|record| &record.motion);
+        let in_piece = first.zip(motion).map_or(MOST_IN_PIECE, |(parts, motion)| {
+            runs_in_piece(&parts.model, motion).min(MOST_IN_PIECE)
+        });
+        let of_chunk = |chunk: Range<u64>| -> Vec<Case> {
             let of_level = |level: &u64| {
                 let from = level * models;
                 (from + chunk.start).max(runs.start)..(from + chunk.end).min(runs.end)
             };
             levels.iter().flat_map(of_level).map(|run| self.case(run)).collect()
         };
-        let pieces: Vec<Vec<Case>> = chunks(these.clone()).map(piece).collect();
+        // All levels of a model in one piece, where that is not too much.
+        let designs = (in_piece / levels.len()).clamp(1, CHUNK as usize) as u64;
+        let chunks: Vec<Vec<Case>> = chunks(these.clone(), designs).map(of_chunk).collect();
+        let pieces: Vec<&[Case]> = chunks.iter().flat_map(|of| of.chunks(in_piece)).collect();
         let design = |case: &Case| {
             let sample = sample(case);
             (&sample.parts, self.turned_rad(&sample.values))

@@ -4,7 +4,6 @@ use std::ops::Range;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use slipstick::error::Stopped;
 use slipstick::input::plan::Levels;
 use slipstick::study::Row;
 use slipstick::study::engine::Engine;
@@ -15,6 +14,9 @@ use super::{OpenStudy, StudyError};
 use crate::error::shown;
 use crate::parquet::at;
 use crate::write::{OutputFolder, write_whole_by};
+
+/// Most parts that are computed or written at a time, whose rows are held.
+const PARTS_AT_ONCE: usize = 8;
 
 /// One of so many shards of a study, from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -124,18 +126,14 @@ impl OpenStudy {
             }
         }
         engine.done(outcome.kept)?;
-        let mut computed: Option<(u64, Vec<Row>)> = None;
-        for part in to_do.into_iter().map(Some).chain([None]) {
-            // One part is judged, encoded and written while the next is computed.
-            let next = || part.map(|part| self.compute(part, engine)).transpose();
-            let last =
-                || computed.take().map(|(part, rows)| self.finish(part, &rows, folder, engine));
-            let (next, last) = engine.both(next, last);
-            if let Some(notes) = last.transpose()? {
-                outcome.failures += notes.failures;
-                outcome.checks.join(&notes.checks);
-            }
-            computed = next?;
+        // One part is judged, encoded and written while others are computed.
+        let all_notes = engine.begun_in_order(to_do.len(), PARTS_AT_ONCE, |i| {
+            let rows = self.study.rows(rows_of(to_do[i], runs), engine)?;
+            self.finish(to_do[i], &rows, folder, engine)
+        })?;
+        for notes in all_notes {
+            outcome.failures += notes.failures;
+            outcome.checks.join(&notes.checks);
         }
         Ok(outcome)
     }
@@ -146,10 +144,6 @@ impl OpenStudy {
         let runs = self.study.runs();
         let parts = shard.parts(part_count(runs));
         parts.map(|part| rows_of(part, runs)).map(|rows| rows.end - rows.start).sum()
-    }
-
-    fn compute(&self, part: u64, engine: &Engine<'_>) -> Result<(u64, Vec<Row>), Stopped> {
-        Ok((part, self.study.rows(rows_of(part, self.study.runs()), engine)?))
     }
 
     /// Judges some rows of a part and writes it.
