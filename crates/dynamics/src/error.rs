@@ -396,7 +396,7 @@ pub enum FitError {
 }
 
 impl FitError {
-    /// The same with its intensities in a unit that is so much in theirs.
+    /// This error with its intensities in a unit that is so much in SI.
     #[must_use]
     pub fn with_intensities_over(self, in_si: f64) -> Self {
         match self {

@@ -31,7 +31,7 @@ pub struct Block {
 /// Damping of the storeys.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Damping {
-    /// The same ratio of critical damping in every fixed-base mode:
+    /// One ratio of critical damping for every fixed-base mode:
     /// `C = M Φ diag(2 ξ ω) Φᵀ M` with mass-normalised modes Φ.
     Ratio(f64),
     /// Dampers between neighbouring floors in N s/m, from the block up.
@@ -278,7 +278,7 @@ impl Model {
         }
     }
 
-    /// The same model with another structure or start along y; without it y is as x, and starts at rest.
+    /// This model with another structure or start along y; without it y is as x, and starts at rest.
     ///
     /// # Errors
     /// [`ModelError`] as [`Model::new`].
@@ -334,7 +334,7 @@ impl Model {
         }
     }
 
-    /// The same model turned so that what is along a direction is along x, if it moves along that alone when it is pushed
+    /// This model turned so that what is along a direction is along x, if it moves along that alone when it is pushed
     /// so: along an axis, or of a structure that is the same along both. The width is that of an axis.
     pub(crate) fn turned_to(&self, [x, y]: [f64; 2]) -> Option<Self> {
         let turned = self.turned_to_y();
@@ -378,7 +378,7 @@ impl Model {
         (is_axis || is_same).then(|| Self { block, frame, initial, along_y: None, ..self.clone() })
     }
 
-    /// The same model turned so that what is along y is along x.
+    /// This model turned so that what is along y is along x.
     pub fn turned_to_y(&self) -> Self {
         let AlongY { stiffnesses_n_per_m, damping, width_m, initial } = self.along_y();
         let block = Block { width_m, ..self.block };
@@ -394,7 +394,7 @@ impl Model {
         }
     }
 
-    /// The same model with contents, in the place of those that it had.
+    /// This model with contents, in the place of those that it had.
     ///
     /// # Errors
     /// [`ModelError`] for contents without mass, with more kinetic than static friction, or on a floor
@@ -518,14 +518,14 @@ impl Model {
         self.slider.stiffness_n_per_m(self.normal_n())
     }
 
-    /// The same model with other friction; surfaces in series keep theirs.
+    /// This model with other friction; surfaces in series keep theirs.
     #[must_use]
     pub fn with_friction(&self, friction: Friction) -> Self {
         let model = self.clone();
         Self { slider: model.slider.with_friction(friction), ..model }
     }
 
-    /// The same model with all coefficients of the slider times `factor`.
+    /// This model with all coefficients of the slider times `factor`.
     ///
     /// # Errors
     /// [`ModelError::OutOfRange`] unless the factor is finite and ≥ 0.

@@ -125,7 +125,7 @@ impl GroundMotion {
         }
     }
 
-    /// The same motion with an acceleration along y at its samples, Ü_y in m/s².
+    /// This motion with an acceleration along y at its samples, Ü_y in m/s².
     ///
     /// # Errors
     /// [`MotionError`] for a list of another length, and values that are not finite or larger than

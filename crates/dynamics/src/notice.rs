@@ -136,7 +136,7 @@ kinds! {
     ReadAlongLines "read_along_lines" Note,
     /// The record has a velocity at its end above 5 % of its peak velocity.
     RecordDrift "record_drift" Warning,
-    /// The same file was named more than once.
+    /// One file was named more than once.
     RecordNamedTwice "record_named_twice" Warning,
     /// Blocks were put in the order of their times.
     RecordsSorted "records_sorted" Warning,
@@ -304,13 +304,13 @@ impl Notice {
         Self { kind, time_s: None, message: message.into(), is_severe: false }
     }
 
-    /// The same at a time.
+    /// This notice at a time.
     #[must_use]
     pub fn at(self, time_s: f64) -> Self {
         Self { time_s: Some(time_s), ..self }
     }
 
-    /// The same as a severe one, where that holds.
+    /// This notice as a severe one, where that holds.
     #[must_use]
     pub fn severe_where(self, is_severe: bool) -> Self {
         Self { is_severe: self.is_severe || is_severe, ..self }

@@ -146,7 +146,7 @@ pub struct PointFactors {
 }
 
 impl PointFactors {
-    /// Those of a model whose structure is given by its modes.
+    /// The factors of a model whose structure is given by its modes.
     #[must_use]
     pub fn of(model: &Model) -> Option<Arc<Self>> {
         let structure = model.structure()?;
@@ -498,7 +498,7 @@ pub struct PointFactorsInPlane {
 }
 
 impl PointFactorsInPlane {
-    /// Those of a model whose structure is given by its modes.
+    /// The factors of a model whose structure is given by its modes.
     #[must_use]
     pub fn of(model: &Model) -> Option<Arc<Self>> {
         let structure = model.structure()?;

@@ -192,7 +192,7 @@ impl Slider {
         Self::on(Bearing::Surface { friction, restoring: Restoring::None })
     }
 
-    /// The same with a spring of this stiffness.
+    /// A slider on one flat surface, restrained by a spring of this stiffness.
     #[must_use]
     pub fn sprung(friction: Friction, stiffness_n_per_m: f64) -> Self {
         let restoring = Restoring::Spring { stiffness_n_per_m };
@@ -305,7 +305,7 @@ impl Slider {
         given.reduce(|a, b| if b.1 < a.1 { b } else { a })
     }
 
-    /// The same held by a coefficient of friction, on a spring with the stiffness that it has under a normal
+    /// A slider held by one coefficient of friction, on a spring with the stiffness that this one has under a normal
     /// force, without a gap.
     ///
     /// # Errors
@@ -399,7 +399,7 @@ impl Slider {
         self.law(0.0, true).stop_force_n(contact, s, w)
     }
 
-    /// The same with other friction on its one surface; surfaces in series keep theirs.
+    /// This slider with other friction on its one surface; surfaces in series keep theirs.
     #[must_use]
     pub fn with_friction(mut self, other: Friction) -> Self {
         if let Bearing::Surface { friction, .. } = &mut self.bearing {
@@ -408,7 +408,7 @@ impl Slider {
         self
     }
 
-    /// The same with all coefficients times `factor`.
+    /// This slider with all coefficients of friction times `factor`.
     ///
     /// # Errors
     /// As [`Friction::scaled`].

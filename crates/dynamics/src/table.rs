@@ -102,7 +102,7 @@ impl Field {
         Self { name: name.into(), unit: String::new(), kind: Kind::Text, optional: false }
     }
 
-    /// The same with a value in every cell.
+    /// This field with a value in every cell.
     #[must_use]
     pub fn required(self) -> Self {
         Self { optional: false, ..self }

@@ -292,8 +292,11 @@ const DESIGN: &[Field] = &[
         "LOWER,UPPER",
         "Factors on friction for the robustness check: 0.8,1.3; slider.bounds of the model if left out",
     ),
-    Field::new("sensitivity", "N", "Sample points of the sensitivity (Sobol' indices); 0 for none")
-        .or("256"),
+    Field::new(
+        "sensitivity",
+        "N",
+        "Sample points of the sensitivity (Sobol' indices); 0 for none; 256 if left out, of pairs run together 64",
+    ),
     Field::new("seed", "SEED", "Seed of those points").or("1"),
     CONFIDENCE,
     PAIRS,

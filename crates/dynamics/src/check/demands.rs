@@ -67,7 +67,7 @@ pub(super) struct Recomputed<'a> {
     pub(super) scale_m: f64,
     /// Largest sizes of the outputs.
     pub(super) peaks: &'a [f64],
-    /// The same with what rounding decides, and what differences are measured by.
+    /// Largest sizes with what rounding decides, and what differences are measured by.
     pub(super) possible: &'a [f64],
     pub(super) scales: &'a [f64],
     pub(super) totals: &'a Totals,
@@ -181,7 +181,7 @@ pub(super) fn of_motion(
     of_stop(c, model, d, own, (instants_s, rounding));
 }
 
-/// The same of what there is in every direction: sliding displacements and the peaks of outputs.
+/// Compares what there is in every direction: sliding displacements and the peaks of outputs.
 pub(super) fn of_directions(
     c: &mut Comparison,
     model: &Model,

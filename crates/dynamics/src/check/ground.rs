@@ -26,7 +26,7 @@ impl Load {
         instant_s * self.normal_slope.abs() + 8.0 * f64::EPSILON * normal
     }
 
-    /// The same of a force on a mass, in N: `m |dÜ/dt| δt`.
+    /// Rounding of a force on a mass, in N: `m |dÜ/dt| δt`.
     pub(super) fn rounding_of_mass(&self, instant_s: f64, mass_kg: f64) -> f64 {
         instant_s * mass_kg * self.slope.abs()
     }
@@ -70,7 +70,7 @@ impl<'a> Ground<'a> {
         Self::of(model, motion, motion.horizontal_m_per_s2(), end_s)
     }
 
-    /// The same of one horizontal component.
+    /// The ground of one horizontal component.
     pub(super) fn of(
         model: &Model,
         motion: &'a GroundMotion,

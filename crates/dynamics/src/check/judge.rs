@@ -117,7 +117,7 @@ pub(super) trait Directions {
     fn degrees(&self) -> usize;
     /// Displacement and velocity of a degree stored at a knot.
     fn stored(&self, k: usize, degree: usize) -> [f64; 2];
-    /// The same with which the model starts.
+    /// Displacement and velocity of a degree with which the model starts.
     fn initial(&self, degree: usize) -> [f64; 2];
     /// Speed of an interface's sliding stored at a knot.
     fn speed_at(&self, k: usize, interface: usize) -> f64;

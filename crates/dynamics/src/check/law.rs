@@ -406,7 +406,7 @@ impl Law {
         ways.filter_map(|off_ends| self.sliding(surfaces, direction, off_ends)).collect()
     }
 
-    /// The same with all at their ends still there, or all off them.
+    /// How a slip goes on with all surfaces at their ends still there, or all off them.
     fn sliding(&self, surfaces: &[f64], direction: Direction, off_ends: bool) -> Option<Sliding> {
         let series = self.series.as_ref()?;
         let sign = direction.sign();

@@ -53,7 +53,7 @@ impl Structure {
         Self::of(model, (&frame.stiffnesses_n_per_m, &frame.damping), vertical)
     }
 
-    /// The same with other stiffnesses and damping of the storeys.
+    /// The structure of a model with these stiffnesses and this damping of its storeys.
     pub(super) fn of(model: &Model, (k, damping): (&[f64], &Damping), vertical: bool) -> Self {
         let m = &model.frame().masses_kg;
         let (n, on_block) = (m.len(), model.structure().is_some());
@@ -173,7 +173,7 @@ impl Structure {
         chain.iter().zip(above).map(move |(below, above)| 2.0 * (below + share * above))
     }
 
-    /// The same of the block's row.
+    /// Sum of the sizes in the block's row of a chain's matrix.
     fn base_row(&self, chain: &[f64]) -> f64 {
         let on_block = if self.on_block { chain.len() } else { 1 };
         2.0 * chain.iter().take(on_block).sum::<f64>()
@@ -200,7 +200,7 @@ impl Structure {
         term
     }
 
-    /// The same of springs or dampers between neighbouring floors, or to the block.
+    /// Adds the forces of springs or dampers between neighbouring floors, or to the block; returns the largest term.
     #[inline(always)]
     fn add_chain<const N: usize>(
         &self,

@@ -48,13 +48,13 @@ impl Eight {
     }
 }
 
-/// The same number four times.
+/// A number in four lanes.
 #[inline(always)]
 pub fn four<S: Simd>(simd: S, x: f64) -> f64x4<S> {
     f64x4::splat(simd, x)
 }
 
-/// The same number eight times.
+/// A number in eight lanes.
 #[inline(always)]
 pub fn eight<S: Simd>(simd: S, x: f64) -> f64x8<S> {
     f64x8::splat(simd, x)
@@ -194,7 +194,7 @@ pub fn combine4<S: Simd>(
     }
 }
 
-/// The same for one number at eight samples, or for eight outputs.
+/// Columns times factors: one number at eight samples, or eight outputs.
 #[inline(always)]
 pub fn combine8<S: Simd>(
     simd: S,

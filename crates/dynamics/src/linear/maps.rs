@@ -36,7 +36,7 @@ pub type Window = [f64; BATCH + 1];
 /// The force on the block over a batch in slip.
 #[derive(Clone, Copy, Debug)]
 pub enum Force<'a> {
-    /// The same at all samples, in N.
+    /// One force at all samples, in N.
     Constant(f64),
     /// A coefficient times the normal force at the samples.
     Varying(f64, &'a Window),
@@ -60,7 +60,7 @@ pub struct Maps {
     /// For each number of samples from 1: a constant force, the first sample, the taps of the eight
     /// samples after it, the state; four components at a time.
     columns: [Vec<Four>; BATCH],
-    /// The same for a force that varies: first sample and taps.
+    /// For each number of samples from 1, of a force that varies: first sample and taps.
     force_columns: [Vec<Four>; BATCH],
     /// Stick over [`QUIET`] samples: first sample, taps, state.
     quiet: Vec<Four>,
@@ -227,7 +227,7 @@ impl UnitResponses {
         Maps { columns, force_columns, quiet, apart: None }
     }
 
-    /// The same of stick where nothing couples the modes.
+    /// Maps of stick where nothing couples the modes.
     fn maps_of_modes(&self, n: usize) -> Maps {
         let zero = vec![0.0; self.stride];
         let size = self.stride * self.stride;

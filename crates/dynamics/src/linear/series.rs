@@ -78,7 +78,7 @@ pub struct ModalSeries {
     stride: usize,
     /// Orders of a whole series.
     orders: usize,
-    /// Those of the last.
+    /// Orders of the last series.
     used: usize,
     c: Vec<f64>,
     f: Vec<f64>,
@@ -136,7 +136,7 @@ impl ModalSeries {
         self.expand_to(simd, system, slip, x, load, (length_s, self.orders));
     }
 
-    /// The same up to an order, a multiple of four.
+    /// Expands the motion up to an order, a multiple of four.
     #[inline(always)]
     pub(super) fn expand_to<S: Simd>(
         &mut self,
@@ -256,7 +256,7 @@ impl ModalSeries {
         }
     }
 
-    /// The same in slip under one more force, which fades with the speed: `force e^(−rate ṡ)`.
+    /// Expands a slip under one more force, which fades with the speed: `force e^(−rate ṡ)`.
     ///
     /// With the coefficients `E_k` of the power, `(k+1) E_{k+1} = −rate Σ_{j≤k} (j+1) w_{j+1} E_{k−j}`.
     /// Returns the part of the length over which the last terms are below rounding, 4 at most.

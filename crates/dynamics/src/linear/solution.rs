@@ -11,7 +11,7 @@ use super::system::System;
 /// the recursion.
 const TABLE_STOREYS: [usize; 2] = [1, 2];
 
-/// The same of short series, which the table holds alone then.
+/// Most storeys for which short series go by a table, which holds these alone then.
 const SHORT_STOREYS: [usize; 2] = [2, 5];
 
 /// Most storeys for which a part of an interval goes by a map: beyond, the maps are too large.

@@ -87,7 +87,7 @@ pub type Modes = [Four; 3];
 /// Damping of the storeys, as [`System::new`] takes it.
 #[derive(Clone, Copy, Debug)]
 pub enum StoreyDamping<'a> {
-    /// The same ratio of critical damping in every fixed-base mode.
+    /// One ratio of critical damping for every fixed-base mode.
     Ratio(f64),
     /// Dampers between neighbouring floors in N s/m, from the block up.
     Dampers(&'a [f64]),
@@ -114,7 +114,7 @@ impl System {
         system.finished()
     }
 
-    /// The same with oscillators that stand each on the block: modes by their effective masses. To every
+    /// A block with oscillators that stand each on it: modes by their effective masses. To every
     /// point each adds its displacement times a factor; the rest of the point's motion is the block's.
     #[must_use]
     pub fn of_oscillators(
@@ -189,7 +189,7 @@ impl System {
         self
     }
 
-    /// The same structure on another spring and damper.
+    /// This structure on another spring and damper.
     #[must_use]
     pub fn restrained(&self, stiffness_n_per_m: f64, damper_n_s_per_m: f64) -> Self {
         let mut system = Self { stiffness_n_per_m, damper_n_s_per_m, ..self.clone() };
@@ -564,7 +564,7 @@ impl System {
         [first.sqrt(), second.sqrt()]
     }
 
-    /// The same of modes that nothing couples.
+    /// Norms of the first and second derivative where nothing couples the modes, four modes at a time.
     #[inline(always)]
     fn derivative_norms_by_four<S: Simd>(
         &self,

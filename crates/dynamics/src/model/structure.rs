@@ -110,7 +110,7 @@ impl ModeInPlane {
 /// Part of the mass by which effective masses may exceed it: what rounding to seven digits makes.
 pub const ROUNDED_MASS: f64 = 1e-6;
 
-/// The same of what is between x and y, where products of both participations are rounded.
+/// Part of the mass by which the coupling of x and y may exceed it: products of two rounded participations.
 pub const ROUNDED_ACROSS: f64 = 1e-3;
 
 /// Part of the mass, or of the block's motion, by which a structure may move across a line and move along it: rounding.

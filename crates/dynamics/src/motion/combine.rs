@@ -8,7 +8,7 @@ use crate::error::MotionError;
 use crate::numerics::fractile::upper_median;
 
 impl GroundMotion {
-    /// The same motion with all components times `factor`, which may be negative.
+    /// This motion with all components times `factor`, which may be negative.
     ///
     /// # Errors
     /// [`MotionError::OutOfRange`] for a factor that is not finite, [`MotionError::NotFinite`] and

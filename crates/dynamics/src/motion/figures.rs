@@ -61,7 +61,7 @@ impl Figures {
 }
 
 impl Figures {
-    /// The same of the norm of two components; between samples its square is a polynomial of the time.
+    /// Figures of the norm of two components; between samples its square is a polynomial of the time.
     fn of_resultant(times_s: &[f64], components: [&[f64]; 2]) -> Self {
         let (mut velocity, mut displacement) = ([0.0; 2], [0.0; 2]);
         let (mut largest_v2, mut largest_u2) = (0.0, 0.0);

@@ -320,7 +320,7 @@ impl Line {
         Self { xi, theta: period, y: start.u, slope: start.w, f }.raise_throughout(sides, peak);
     }
 
-    /// The same, looked for all along.
+    /// Raises a peak by looking at all parts of a step.
     fn raise_throughout(&self, [below, above]: [bool; 2], peak: &mut f64) {
         let parts = libm::ceil(self.theta / Self::LONGEST).max(1.0);
         let theta = self.theta / parts;

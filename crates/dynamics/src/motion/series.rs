@@ -166,7 +166,7 @@ impl Series {
         Self::combined(&[(cos, x), (sin, y)])
     }
 
-    /// The same with other values at the same times.
+    /// A series with other values at these times.
     pub(super) fn with_values(&self, values: Vec<f64>) -> Result<Self, MotionError> {
         super::check_values(self.times_s.len(), &values, None)?;
         Ok(Self { values: Arc::new(values), ..self.clone() })

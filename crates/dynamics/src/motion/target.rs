@@ -132,8 +132,8 @@ pub fn maximum_direction(
     Ok(largest.of_damping(0).iter().map(|ordinates| ordinates.psa_m_per_s2).collect())
 }
 
-/// The same of a record and the other component of its pair, which a motion in two horizontal directions
-/// has in it.
+/// RotD100 of a record and the other component of its pair, which a motion in two horizontal directions
+/// has in it, at periods; 5 % damped pseudo-acceleration in m/s².
 ///
 /// # Errors
 /// As [`maximum_direction`].

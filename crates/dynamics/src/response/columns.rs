@@ -5,7 +5,7 @@ use crate::model::Model;
 
 /// A quantity of a point at a knot: history, knot, point.
 type OfPoint = fn(&History, usize, usize) -> f64;
-/// The same in two directions.
+/// Values of a point along x and y at a knot.
 type OfPointInPlane = fn(&HistoryAlongY, &History, usize, usize) -> [f64; 2];
 
 impl Response {
@@ -46,7 +46,7 @@ impl Response {
         (0..history.len()).map(of).collect()
     }
 
-    /// The same along y; nothing in one direction.
+    /// Force of the slider along y at the knots, in N; nothing in one direction.
     #[must_use]
     pub fn slider_force_y_n(&self, model: &Model) -> Vec<f64> {
         let y = self.in_plane.as_ref().and_then(|plane| plane.history.as_ref());

@@ -48,7 +48,7 @@ pub(crate) struct Restraints {
     pub(crate) is_pressed: bool,
 }
 
-/// The same under a constant normal force, affine but perhaps for what fades:
+/// The force of a branch under a constant normal force, affine but perhaps for what fades:
 /// `F = force + k s + c ṡ + coefficient N − fading`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Affine {

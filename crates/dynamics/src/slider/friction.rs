@@ -110,7 +110,7 @@ impl Friction {
         }
     }
 
-    /// The same with all coefficients times `factor` (lower- and upper-bound friction).
+    /// This friction with all coefficients times `factor` (lower- and upper-bound friction).
     ///
     /// # Errors
     /// [`ModelError::OutOfRange`] unless the factor is finite and ≥ 0.

@@ -60,7 +60,7 @@ impl Hold {
         self.friction.map(|bound| bound * pressing_n)
     }
 
-    /// The same under eight normal forces, which friction itself follows.
+    /// The forces that friction alone holds under eight normal forces, to which it is in proportion.
     #[inline(always)]
     pub(crate) fn friction_of_eight<S: Simd>(&self, simd: S, normal_n: f64x8<S>) -> [f64x8<S>; 2] {
         let [low, high] = self.friction;
@@ -197,7 +197,7 @@ pub(crate) struct Disc {
 }
 
 impl Disc {
-    /// The same for pushes times a factor.
+    /// This disc for pushes times a factor.
     pub(crate) fn times(self, factor: f64) -> Self {
         Self { of_normal: factor * self.of_normal, ..self }
     }

@@ -63,7 +63,7 @@ impl IsotropicFriction {
         self.gain * self.rate_s_per_m * libm::exp(-self.rate_s_per_m * speed)
     }
 
-    /// The same times a factor.
+    /// This friction times a factor.
     pub(crate) fn times(&self, factor: f64) -> Self {
         Self { at_rest: factor * self.at_rest, gain: factor * self.gain, ..*self }
     }

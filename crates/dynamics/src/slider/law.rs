@@ -381,7 +381,7 @@ impl<'a> Law<'a> {
         }
     }
 
-    /// The same under a normal force.
+    /// Force of kinetic friction in a direction under a normal force, in N.
     #[inline(always)]
     pub(crate) fn resistance_n(
         &self,
@@ -449,7 +449,7 @@ impl<'a> Law<'a> {
         }
     }
 
-    /// The same where the block strikes a rigid stop in a direction.
+    /// Updates the memory where the block strikes a rigid stop in a direction.
     pub(crate) fn strike(&self, memory: &mut Memory, s: f64, direction: Direction) {
         if let Some(series) = self.bearing.series() {
             series.arrive(&mut memory.series, s, direction);
@@ -457,7 +457,7 @@ impl<'a> Law<'a> {
         self.settle(memory, s);
     }
 
-    /// The same where a bounce in a direction ends, however short it was.
+    /// Updates the memory where a bounce in a direction ends, however short it was.
     pub(crate) fn turn(&self, memory: &mut Memory, s: f64, direction: Direction) {
         if let Some(series) = self.bearing.series() {
             series.turn(&mut memory.series, s, direction);

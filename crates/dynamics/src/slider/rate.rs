@@ -130,7 +130,7 @@ impl RateLaw {
         self.piece(self.piece_of(speed_m_per_s), direction).at(speed_m_per_s)
     }
 
-    /// The same with all coefficients times `factor`.
+    /// This law with all coefficients times `factor`.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
         Self { curve: self.curve.clone(), factors: self.factors.map(|own| own * factor) }

@@ -81,7 +81,7 @@ impl SurfacesInSeries {
         self.static_ratio
     }
 
-    /// The same with all coefficients times `factor`.
+    /// These surfaces with all coefficients of friction times `factor`.
     ///
     /// # Errors
     /// [`ModelError::OutOfRange`] unless the factor is finite and ≥ 0.

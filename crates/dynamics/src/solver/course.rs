@@ -98,7 +98,7 @@ pub(super) struct WalkState<'a> {
     pub(super) slider: SliderState<'a>,
     /// The slider as an interface.
     pub(super) block: Interface,
-    /// Those of contents that slide each by itself, which start from rest.
+    /// Interfaces of contents that slide each by itself, which start from rest.
     pub(super) contents: Vec<Interface>,
     pub(super) near: Option<Near>,
     /// Interfaces that have reached their bounds.
@@ -132,7 +132,7 @@ impl<'a> WalkState<'a> {
         Self { slider, block, contents, near: None, released, events, events_in_interval: 0 }
     }
 
-    /// The same with so many contents.
+    /// This state with so many contents.
     pub(super) fn with_contents(mut self, count: usize) -> Self {
         self.contents.resize(count, Interface::new(0.0, 0.0));
         self
@@ -153,7 +153,7 @@ impl<'a> WalkState<'a> {
         }
     }
 
-    /// The same, to change.
+    /// An interface, to change.
     #[inline(always)]
     pub(super) fn interface_mut(&mut self, i: usize) -> &mut Interface {
         match i {

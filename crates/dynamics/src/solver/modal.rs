@@ -67,7 +67,7 @@ impl Curvature {
         by_first.simd_lt(by_second).select(by_first, by_second) * eight(simd, reach)
     }
 
-    /// The same from a chord over the batch, in which the loads have kinks.
+    /// How far outputs of a group depart from a chord over the batch, in which the loads have kinks.
     #[inline(always)]
     pub(super) fn slack_over_batch<S: Simd>(
         &self,

@@ -311,7 +311,7 @@ pub(super) struct OutputGroup {
     pub(super) of_stop: Eight,
     /// Largest values on states of energy norm 1.
     pub(super) norm: Eight,
-    /// The same of their rates `c A`, and what rates of acceleration and friction force add to their
+    /// Largest rates `c A x` on those states, and what rates of acceleration and friction force add to their
     /// second derivatives, `|c b|`.
     pub(super) norm_of_rate: Eight,
     pub(super) of_jerk: Eight,

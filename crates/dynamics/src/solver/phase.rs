@@ -69,7 +69,7 @@ pub(super) trait Phase<'a> {
     /// Records the present state as a knot at a sample, perhaps as a row of the history.
     fn record_sample(&mut self, course: &WalkState<'a>, sample: usize, row: bool);
 
-    /// The same between samples, at a time with the acceleration of the table there.
+    /// Records a knot between samples, at a time with the acceleration of the table there.
     fn record_between(
         &mut self,
         course: &WalkState<'a>,

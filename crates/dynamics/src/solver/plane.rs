@@ -134,7 +134,7 @@ impl<'a> Plane<'a> {
 
     // ---- loads ----------------------------------------------------------------------------------
 
-    /// Those from a time of a stretch on.
+    /// Loads of a stretch from a time on.
     fn loads(&self, stretch: &Stretch, at_s: f64) -> Loads {
         let (times_s, y, i) = (self.ground.times_s, self.table_y, stretch.interval);
         // Loads of an interval without length, or beyond the last, stand.

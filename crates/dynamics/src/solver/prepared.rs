@@ -105,7 +105,7 @@ impl Prepared {
         }
     }
 
-    /// The same without [running ahead](Prepared): every event by event stepping, for comparison.
+    /// The response without [running ahead](Prepared): every event by event stepping, for comparison.
     #[must_use]
     pub fn without_running_ahead(self) -> Self {
         let mut tables = tables_of(&self.model, self.dt_s);
@@ -148,7 +148,7 @@ impl Prepared {
         self.demands_while(workspace, motion, NEVER_CANCELLED)
     }
 
-    /// The same as long as `go_on` says so, which is asked every few milliseconds.
+    /// The demands, as long as `go_on` says so, which is asked every few milliseconds.
     ///
     /// # Errors
     /// [`SolveError::Stopped`] where it says no, and as [`Prepared::demands`].
@@ -181,7 +181,7 @@ impl Prepared {
         self.response_by(InstructionSet::best(), motion)
     }
 
-    /// The same by a given instruction set.
+    /// The response by a given instruction set.
     ///
     /// # Errors
     /// [`SolveError`] with time and cause.
@@ -243,7 +243,7 @@ fn solve(
     }
 }
 
-/// The same in two horizontal directions: by the solver in one where all of it is along one line.
+/// Solves a motion in two horizontal directions: by the solver in one where all of it is along one line.
 fn solve_in_plane(
     instructions: InstructionSet,
     model: &Model,
@@ -411,7 +411,7 @@ fn stepped(
     })
 }
 
-/// The same with how the points of a structure by its modes follow from it.
+/// A history with the factors by which the points of a structure by its modes follow from it.
 fn with_points(history: History, model: &Model) -> History {
     History { points: PointFactors::of(model), ..history }
 }

@@ -115,7 +115,7 @@ impl<'a> SliderState<'a> {
         self.law.settle(&mut self.memory, s);
     }
 
-    /// The same at the end of a bounce in a direction, however short it was.
+    /// Notes the end of a bounce in a direction, however short it was.
     pub(super) fn turn(&mut self, s: f64, direction: Direction) {
         self.note_surfaces(s);
         self.law.turn(&mut self.memory, s, direction);

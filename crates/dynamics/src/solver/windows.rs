@@ -15,7 +15,7 @@ pub(super) struct Extent {
     pub(super) change: f64,
 }
 
-/// Those of all batches of a motion.
+/// Extents of all batches of a motion.
 #[derive(Debug)]
 pub(super) struct Windows {
     /// Over the samples and intervals that begin in each eight, with zeros after the last.

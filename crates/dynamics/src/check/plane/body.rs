@@ -185,7 +185,7 @@ pub(super) struct Part {
     pub(super) damping_ratio: f64,
 }
 
-/// Those that the modes of a structure are: `d = η/|L|`, so that `d̈ + 2ξω ḋ + ω² d = −(L/|L|)·(s̈ + a)`.
+/// The parts that the modes of a structure are: `d = η/|L|`, so that `d̈ + 2ξω ḋ + ω² d = −(L/|L|)·(s̈ + a)`.
 pub(super) fn parts_of(structure: &Structure) -> Vec<Part> {
     let taking_part = structure.in_plane.iter().filter_map(|mode| {
         let along = unit(mode.participation)?;

@@ -397,7 +397,7 @@ impl Linear {
         all
     }
 
-    /// The same, made once for a step that comes again.
+    /// Hands over the influence of forces in a step, which is made once for a step that comes again.
     pub(super) fn with_influence<T>(
         &self,
         (step_s, instant_s): (f64, f64),

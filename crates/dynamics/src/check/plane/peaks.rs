@@ -166,7 +166,7 @@ impl Tracked<'_> {
 pub(super) struct Peaks {
     /// Of the vectors, along x, along y.
     pub(super) largest: [Vec<f64>; 3],
-    /// The same where what is decided by rounding counts too.
+    /// Largest sizes where what is decided by rounding counts too.
     pub(super) possible: [Vec<f64>; 3],
     /// Largest `s` towards the four sides.
     pub(super) sides_m: [f64; 4],
@@ -242,8 +242,8 @@ impl Peaks {
         }
     }
 
-    /// The same where the acceleration of the block is not along friction: by looking along the arc, and closer where
-    /// an output is largest.
+    /// Raises the peaks of an arc where the acceleration of the block is not along friction: by looking along it, and
+    /// closer where an output is largest.
     fn turn_of_body(
         &mut self,
         tracked: &Tracked<'_>,
@@ -334,7 +334,7 @@ impl Peaks {
             && is_axis_below(1)
     }
 
-    /// The same by the vectors at the points.
+    /// Raises the peaks by the vectors at the points of a step.
     #[inline(always)]
     fn raise(
         &mut self,

@@ -217,7 +217,7 @@ impl Window<'_> {
         Point { t, slope: a - b, value: after - before }
     }
 
-    /// The same at a kink, as far from a sample as many others.
+    /// The window at a kink, which is as far from a sample as many others are.
     fn kink(&mut self, t: f64) -> Point {
         let [from, to] = &mut self.cursors;
         let [a, after] = self.filtered.at(t + self.window_s, to, Some(&mut self.known));

@@ -29,7 +29,7 @@ pub(super) struct Ahead<'r, 'a, S: Simd> {
     /// Between these values of the gates no output passes its peak.
     pub(super) low: Abreast<S>,
     pub(super) high: Abreast<S>,
-    /// The same in stick of friction and slider force; infinite where the static bounds keep them.
+    /// Limits in stick of friction and slider force; infinite where the static bounds keep them.
     pub(super) most_friction: f64,
     pub(super) most_slider: f64,
     /// What holds at rest; the same everywhere but for the spring's force, which is not asked for.

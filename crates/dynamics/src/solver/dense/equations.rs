@@ -59,7 +59,7 @@ impl OneStorey {
         self.restoring_of([x[2], x[3]])
     }
 
-    /// The same of `η, η̇`.
+    /// `D η̇ + Ω η` of `η, η̇`.
     #[inline(always)]
     pub(super) fn restoring_of(&self, [eta, rate]: [f64; 2]) -> f64 {
         self.omega2 * eta + self.decay * rate

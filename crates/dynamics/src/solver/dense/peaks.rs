@@ -154,7 +154,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
         gates.of_sizes(self.simd, series.curvature).times(self.simd, 0.125 * (t * t))
     }
 
-    /// The same for all outputs.
+    /// Looks for peaks of all outputs in the first part `t` of a segment.
     #[inline(never)]
     fn look_at_outputs<const SLIP: bool>(
         &mut self,

@@ -25,7 +25,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
         }
     }
 
-    /// The same of many samples of stick.
+    /// Records many samples of stick.
     #[inline(always)]
     pub(super) fn record_quiet(&mut self, sample: usize, mut x: f64x4<S>) {
         if self.shared.recorder.is_some() {

@@ -273,7 +273,7 @@ fn state<S: Simd>(displacements: f64x2<S>, velocities: f64x2<S>) -> f64x4<S> {
     displacements.zip_low(velocities).combine(displacements.zip_high(velocities))
 }
 
-/// The same number twice.
+/// A number in both lanes.
 #[inline(always)]
 fn two<S: Simd>(simd: S, x: f64) -> f64x2<S> {
     f64x2::splat(simd, x)

@@ -77,7 +77,7 @@ pub(super) fn run_ahead<'a>(walk: &mut Walk<'a, Direct<'a>>, [sample, end]: [usi
     reached
 }
 
-/// The same in one configuration.
+/// Goes ahead by batches in one configuration; the sample reached.
 #[inline(always)]
 fn in_mode<'a, S: Simd>(
     walk: &mut Walk<'a, Direct<'a>>,

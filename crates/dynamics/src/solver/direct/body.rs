@@ -80,7 +80,7 @@ pub(super) struct Loads {
 }
 
 impl Loads {
-    /// Those of a stretch from a time on.
+    /// Loads of a stretch from `at_s` on.
     pub(super) fn at(stretch: &Stretch, at_s: f64) -> Self {
         Self {
             acceleration: [stretch.acceleration_at(at_s), stretch.acceleration_rate],

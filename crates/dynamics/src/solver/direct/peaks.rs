@@ -127,7 +127,7 @@ impl<'e> InSeries<'e> {
         }
     }
 
-    /// The same over the point before it, if there is one.
+    /// A point's share less that of the point below it, if there is one.
     fn over_last(&self, point: usize, list: &'e [Polynomial]) -> Part<'e> {
         let Some(last) = point.checked_sub(1) else { return self.of_point(point, list) };
         match &self.body.points {

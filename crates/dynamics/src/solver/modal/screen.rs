@@ -387,7 +387,7 @@ impl<'a> Modal<'a> {
         if how.width.modes() == 1 { 1 } else { phase.outputs.amplitude_count }
     }
 
-    /// The same of the outputs themselves.
+    /// Largest sizes that the outputs of a group may have, from their reach.
     #[inline(always)]
     fn most<S: Simd, W: Width>(
         &self,

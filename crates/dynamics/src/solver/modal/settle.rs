@@ -175,7 +175,7 @@ impl<'a> Modal<'a> {
         }
     }
 
-    /// The same of one group.
+    /// Looks at one group of outputs of a candidate at its samples.
     #[inline(always)]
     fn look_at_group<S: Simd, W: Width>(
         &mut self,

@@ -59,7 +59,7 @@ impl Peak {
             && self.is_above_by_axis([a, b], bend)
     }
 
-    /// The same of the components alone.
+    /// Whether components between two, which depart from their chords by so much, are below what is attained.
     #[inline(always)]
     fn is_above_by_axis(&self, [a, b]: [[f64; 2]; 2], bend: [f64; 2]) -> bool {
         (0..2).all(|k| self.holds(a[k].abs().max(b[k].abs()) + bend[k], self.axes[k]))
@@ -166,7 +166,7 @@ fn keeps_on(rise: f64, bend: f64) -> bool {
     rise.abs() >= 8.0 * bend
 }
 
-/// The same of both components of a vector and of its length: `|v|²` changes by `2 v·v'`, and that by no more than
+/// Whether neither component of a vector turns, nor its length: `|v|²` changes by `2 v·v'`, and that by no more than
 /// `2 |v'|² + 2 |v| |v''|`.
 fn keeps_on_both([from, to]: [[f64; 2]; 2], rise: [f64; 2], bend: [f64; 2]) -> bool {
     let turn = 8.0 * norm(bend);
@@ -338,7 +338,7 @@ impl Peaks {
         own && (0..2).all(overturns)
     }
 
-    /// The same of the points.
+    /// Whether no output of a point passes its peak between two instants.
     pub(super) fn hold_at_points(
         &self,
         system: &System,
@@ -604,8 +604,8 @@ impl Peaks {
 }
 
 impl Peaks {
-    /// The same of what a block with a mass in each direction is part of, `b = C (P − f u)`: over times as short as
-    /// that of the arc all but `u` stands.
+    /// Raises the peaks that the acceleration of a block with a mass in each direction is part of, `b = C (P − f u)`,
+    /// along an arc: over times as short all but `u` is constant.
     fn note_arc_of_block(&mut self, system: &System, arc: &Arc, pull: [f64; 2], g: &[f64]) {
         let block = |u: [f64; 2]| system.moved([0, 1].map(|k| pull[k] - arc.friction * u[k]));
         let points = self.points;

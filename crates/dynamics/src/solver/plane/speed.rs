@@ -39,7 +39,7 @@ impl Least {
         }
     }
 
-    /// The same of a slip, whose speed falls and rises between its nodes as the speeds there tell.
+    /// Looks at the speed of a slip, which falls and rises between its nodes as the speeds there tell.
     fn look_at_nodes(&mut self, series: &PlaneSeries, (to, speeds): (f64, &AtNodes)) {
         if to == 0.0 {
             return;
@@ -205,7 +205,7 @@ fn gauss(from: f64, to: f64, of: &dyn Fn(f64) -> f64) -> f64 {
     half * sum
 }
 
-/// The same, halved where halves tell another story.
+/// An integral over a part, in halves where they add up to something else.
 fn adaptive(of: &dyn Fn(f64) -> f64, [from, to]: [f64; 2], whole: f64, tolerance: f64) -> f64 {
     let middle = 0.5 * (from + to);
     let halves = [gauss(from, middle, of), gauss(middle, to, of)];

@@ -131,7 +131,7 @@ impl System {
         })
     }
 
-    /// The same under the friction of a model that [has this system](Model::has_system_of).
+    /// This system under the friction of a model that [has it](Model::has_system_of).
     ///
     /// # Errors
     /// [`SolveError::NotTaken`] where friction is not the same in all directions.
@@ -416,7 +416,7 @@ impl Loads {
         system.push(pull, [self.table[0][0], self.table[1][0]])
     }
 
-    /// The same so much later.
+    /// These loads from `t` later on.
     pub(super) fn after(&self, t: f64) -> Self {
         let later = |[value, rate]: [f64; 2]| [value + rate * t, rate];
         Self { table: self.table.map(later), normal: later(self.normal) }

@@ -108,7 +108,7 @@ impl<'a, P: LinePhase<'a> + ?Sized> Walk<'a, P> {
         first
     }
 
-    /// The same in a direction.
+    /// First part of the series at which an interface lets go in a direction.
     #[inline(always)]
     fn release_towards(&self, i: usize, to: Direction, part: f64) -> Option<f64> {
         let mut distance = self.distance(Of::Motion, i, to)?;
@@ -373,7 +373,7 @@ impl<'a> Line<'a> {
         in_doubt.unwrap_or(chosen)
     }
 
-    /// The same from what is held at first.
+    /// The assignment of modes that is found from what is held at first.
     fn choose_from(
         &mut self,
         at: (&Stretch, f64),
