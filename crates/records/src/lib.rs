@@ -58,6 +58,7 @@ pub use quality::judged;
 pub use quality::{REST_KINDS, beyond_earthquakes, rest};
 pub use sampling::of_times;
 use text::Text;
+pub use text::packed;
 pub use unit::{Quantity, Units};
 pub use write::{write_at2, write_csv, write_smc};
 

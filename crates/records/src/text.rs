@@ -20,6 +20,23 @@ pub(super) struct Line<'a> {
     pub bytes: &'a [u8],
 }
 
+/// What bytes are that a program has packed, and what to do; `None` of all others.
+#[must_use]
+pub fn packed(bytes: &[u8]) -> Option<&'static str> {
+    const PACKED: [(&[u8], &str); 3] = [
+        (
+            b"PK\x03\x04",
+            "a workbook or another packed file: save each sheet as CSV (File, Save As), or unpack it",
+        ),
+        (
+            b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1",
+            "a workbook of an old Excel: save each sheet as CSV (File, Save As)",
+        ),
+        (b"\x1F\x8B", "a compressed file: unpack it"),
+    ];
+    PACKED.into_iter().find(|(start, _)| bytes.starts_with(start)).map(|(_, what)| what)
+}
+
 impl<'a> Text<'a> {
     /// Takes the bytes as text: UTF-8 with or without its mark, or any other superset of ASCII.
     ///
@@ -28,6 +45,9 @@ impl<'a> Text<'a> {
     pub fn new(source_name: &'a str, bytes: &'a [u8]) -> Result<Self, RecordError> {
         let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
         let text = Self { source_name, bytes };
+        if let Some(what) = packed(bytes) {
+            return Err(text.error_at_start("a text file", what));
+        }
         if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") {
             return Err(text.error_at_start("text in UTF-8 or ASCII", "UTF-16"));
         }
@@ -311,5 +331,12 @@ mod tests {
             message(b"1\n23\x004"),
             r#"f:2:3: expected a text file, found "byte 0x00 (a binary file?)""#
         );
+        for (bytes, word) in [
+            (&b"PK\x03\x04\x14\0"[..], "save each sheet as CSV"),
+            (b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1\0", "save each sheet as CSV"),
+            (b"\x1F\x8B\x08\0", "unpack it"),
+        ] {
+            assert!(message(bytes).contains(word), "{}", message(bytes));
+        }
     }
 }

@@ -282,6 +282,16 @@ fn tank_of_the_example_is_that_of_its_dimensions() {
     folder.stdout(&[&["structure", "tank", "-o", "us.toml"], &feet[..]].concat());
     assert_eq!(folder.read("it.toml"), folder.read("us.toml"));
     assert!(folder.read("it.toml").contains("mass = \"2513.27 t\""));
+    // Under a pair it is the same in both directions.
+    folder.write("y.txt", "0 0.3 0.6 0.2 -0.4 -0.7 -0.1 0.3 0.1 0\n");
+    let pair =
+        ["it.toml", "--records", "y.txt", "--second", "y.txt", "--units", "g", "--dt", "0.1 s"];
+    let said = folder.stdout(&[&["run"], &pair[..]].concat());
+    assert!(said.contains("in two directions"), "{said}");
+    // A workbook is no table: the message says what to do.
+    folder.write("modes.xlsx", "PK\u{3}\u{4}");
+    let message = folder.refused(&["structure", "info", "modes.xlsx"]);
+    assert!(message.contains("save each sheet as CSV"), "{message}");
     // A tall one, an oil: no more mass than the liquid's.
     let tall = ["--radius", "4 m", "--height", "16 m", "--specific-gravity", "0.85"];
     folder.stdout(&[&["structure", "tank", "-o", "tall.toml"], &tall[..]].concat());

@@ -80,7 +80,9 @@ pub(super) fn along_y(
             0 => Damping::Ratio(0.0),
             n => damping(values, Axis::Y, n)?,
         },
-        width_m: values.number("block.width_y"),
+        width_m: values
+            .number("block.width_y")
+            .or_else(|| values.number("block.width").filter(|_| values.has("structure.along_y"))),
         initial,
     }))
 }

@@ -495,6 +495,12 @@ static STRUCTURE: Section = Section {
             "Factor on the periods of all modes; default 1.",
         ),
         Key::optional(
+            "along_y",
+            Kind::Word(&["as-x"]),
+            "\"as-x\": modes and points do along y what they do along x, as in a round tank or tower, instead of what \
+             each says of y.",
+        ),
+        Key::optional(
             "mode",
             Kind::Sections(&MODE, MAX_MODES),
             "Modes on a fixed base, the longest period first.",

@@ -92,6 +92,12 @@ pub fn read_modes(
     let mut sources = Sources::default();
     let texts: Vec<(usize, &str)> =
         files.iter().map(|(name, text)| (sources.add(name, text), *text)).collect();
+    for (source, text) in &texts {
+        if let Some(what) = crate::record::packed(text.as_bytes()) {
+            let start = SourceSpan { source: *source, span: 0..0 };
+            return Err(sources.error(&start, "", "a text file", what));
+        }
+    }
     let mut table = match texts.iter().position(|(_, text)| text.contains(OPENSEES_TITLE)) {
         Some(report) => opensees::read(&sources, &texts, report, options)?,
         None => csi::read(&sources, &texts, options)?,

@@ -114,7 +114,10 @@ pub(super) fn structure(
             });
         }
     }
-    let in_plane = in_plane.unwrap_or_default();
+    let in_plane = match as_x(values, count)? {
+        true => modes.iter().flat_map(StructureMode::along_both).collect(),
+        false => in_plane.unwrap_or_default(),
+    };
     if in_plane.is_empty() && motion::in_plane(values) {
         return Err(unknown_in_plane(values, count));
     }
@@ -145,6 +148,26 @@ fn unknown_in_plane(values: &Values, modes: usize) -> InputError {
         _ => "a structure known along x alone".to_owned(),
     };
     values.error(path, expected, found)
+}
+
+/// Whether the structure is along y as along x, of which nothing else may be said then.
+fn as_x(values: &Values, modes: usize) -> Result<bool, InputError> {
+    if !values.has("structure.along_y") {
+        return Ok(false);
+    }
+    let of_modes = (1..=modes).flat_map(|j| {
+        ["participation_y", "effective_mass_y", "effective_mass_ratio_y"]
+            .map(|key| format!("structure.mode.{j}.{key}"))
+    });
+    let points = 1..=values.count("structure.point");
+    let of_points = points.map(|i| format!("structure.point.{i}.shape_y"));
+    match of_modes.chain(of_points).find(|path| values.has(path)) {
+        Some(path) => {
+            let expected = "nothing of y in modes and points, which are along y as along x by structure.along_y";
+            Err(values.error(&path, expected, &path))
+        }
+        None => Ok(true),
+    }
 }
 
 /// Whether a mode says what it does along y.

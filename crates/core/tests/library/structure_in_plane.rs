@@ -359,3 +359,56 @@ fn tampered_points_are_found() {
         assert!(is_found(&tampered), "state {which}");
     }
 }
+
+/// A round tank is the same in every direction: under components in proportion its resultants are those of one
+/// direction, turned records give turned answers, and y alone is x alone.
+#[test]
+fn prop_a_round_tank_is_the_same_in_every_direction() {
+    let text = "[block]\nmass = \"402 t\"\nwidth = \"21 m\"\n[slider]\nstatic_friction = 0.07\n\
+                kinetic_friction = 0.05\nradius = \"3 m\"\n[structure]\nmass = \"2513.27 t\"\n\
+                along_y = \"as-x\"\n[[structure.mode]]\nperiod = \"4.9306 s\"\ndamping_ratio = 0.005\n\
+                effective_mass_ratio = 0.517476\n[[structure.mode]]\nperiod = \"0.12 s\"\n\
+                damping_ratio = 0.02\neffective_mass_ratio = 0.449888\n[[structure.point]]\n\
+                name = \"Impulsive\"\nheight = \"7.891 m\"\nmass = \"1130.69 t\"\n\
+                shape = [0, 9.404332e-4]\n[[structure.point]]\nname = \"Sloshing\"\nheight = \"7.253 m\"\n\
+                mass = \"1300.56 t\"\nshape = [8.768695e-4, 0]\n";
+    let motion_of_file = "[motion]\nrecord = \"x.txt\"\nrecord_y = \"y.txt\"\n";
+    let parsed = input::parse("tank.toml", &format!("{text}{motion_of_file}"), &[]);
+    let model = parsed.expect("a tank").model;
+    assert_eq!(model.along_y().width_m, Some(21.0));
+    let pair = taft(0.5, 3000);
+    let alone = pair.along_x();
+    let line = solved("one direction", &model, &alone);
+    assert!(line.demands.peak_sliding_displacement_m > 0.05, "it slides");
+    let [cos, sin] = [0.8, 0.6];
+    let along = |x: f64, y: f64| {
+        let values = |factor: f64| alone.horizontal_m_per_s2().iter().map(|a| factor * a).collect();
+        let motion = GroundMotion::new(alone.times_s().to_vec(), values(x), None);
+        motion.and_then(|motion| motion.with_y(values(y))).expect("a motion")
+    };
+    for [x, y] in [[cos, sin], [0.0, 1.0], [-1.0, 0.0]] {
+        let both = solved("in proportion", &model, &along(x, y));
+        // The ratio of overturning is one of each axis alone.
+        let of_root = |d: &Demands| Demands { overturning_ratio: None, ..d.clone() };
+        let (a, b) = (of_root(&both.demands), of_root(&line.demands));
+        for ((what, a, size), (_, b, _)) in figures(&a, &b).iter().zip(&figures(&b, &b)) {
+            let by_axis = ["largest", "least", "residual"].contains(&what.as_str());
+            assert!(by_axis || (a - b).abs() <= AGREED * size, "{x}, {y}: {what} {a} {b}");
+        }
+    }
+    // Two records at once, and both turned by a right angle.
+    let turned_pair = pair.turned(1.0, core::f64::consts::FRAC_PI_2).expect("a motion");
+    let [first, second] = [&pair, &turned_pair].map(|motion| solved("a pair", &model, motion));
+    let whole = |r: &Response| figures(&r.demands, &first.demands);
+    for ((what, a, size), (_, b, _)) in whole(&first).into_iter().zip(whole(&second)) {
+        let by_axis = ["largest", "least"].contains(&what.as_str());
+        assert!(by_axis || (a - b).abs() <= AGREED * size, "turned: {what} {a} {b}");
+    }
+    let refused =
+        text.replace("shape = [8.768695e-4, 0]", "shape = [8.768695e-4, 0]\nshape_y = [1e-4, 0]");
+    let message = input::parse("tank.toml", &refused, &[]).expect_err("two shapes").to_string();
+    assert!(
+        message.contains("structure.point.2.shape_y") && message.contains("along_y"),
+        "{message}"
+    );
+}

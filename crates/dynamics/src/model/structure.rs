@@ -89,6 +89,27 @@ pub struct Structure {
     pub points: Vec<StructurePoint>,
 }
 
+impl StructureMode {
+    /// This mode along x and one like it along y, of a structure that is the same along both.
+    #[must_use]
+    pub fn along_both(&self) -> [ModeInPlane; 2] {
+        let participation = self.effective_mass_kg.sqrt();
+        [0, 1].map(|axis| {
+            let along = |value: f64| {
+                let mut both = [0.0; 2];
+                both[axis] = value;
+                both
+            };
+            ModeInPlane {
+                frequency_rad_per_s: self.frequency_rad_per_s,
+                damping_ratio: self.damping_ratio,
+                participation: along(participation),
+                points: self.points.iter().map(|of| along(of / participation)).collect(),
+            }
+        })
+    }
+}
+
 impl ModeInPlane {
     fn check(&self, points: usize) -> Result<(), ModelError> {
         let quantity = "structure frequency_rad_per_s";
