@@ -4,6 +4,7 @@ mod building;
 mod ci;
 mod console;
 mod dist;
+mod findings;
 mod paper;
 mod peers;
 mod python;
@@ -35,6 +36,8 @@ Usage: cargo xtask TASK
                                  they print (--write: puts it there)
   paper [--write]                reproduces the paper and compares with the book's chapter
                                  (--write: into book/src/paper.md)
+  findings [--write]             what practice assumes, measured on recorded pairs by the command
+                                 (--write: into book/src/generated/findings.md; needs its records)
   bench-peers [--json] [--quick] [--write]
                                  times the same analyses here, in a numba loop, SciPy and
                                  OpenSeesPy (needs python3; makes .venv)
@@ -95,6 +98,7 @@ fn main() -> ExitCode {
         ["bench-build", options @ ..] => building::bench_build(options),
         ["reference", options @ ..] => reference::reference(options),
         ["console", options @ ..] => console::console(options),
+        ["findings", options @ ..] => findings::findings(options),
         ["paper", options @ ..] => paper::paper(options),
         ["bench-peers", options @ ..] => peers::bench_peers(options),
         ["bench-storeys", options @ ..] => peers::bench_storeys(options),

@@ -11,6 +11,7 @@ mod columns;
 mod demanded;
 mod design;
 pub mod engine;
+pub mod kept;
 pub(crate) mod notices;
 mod pieces;
 pub(crate) mod records;

@@ -8,6 +8,7 @@ mod error;
 mod folder;
 mod globs;
 mod inputs;
+mod kept;
 mod laboratory;
 mod load;
 mod parquet;
@@ -25,6 +26,7 @@ pub use error::FileError;
 pub use folder::{FolderRecords, folder_records};
 pub use globs::{expand, expand_all};
 pub use inputs::InputFiles;
+pub use kept::KeptFile;
 pub use laboratory::{LaboratoryError, TextFile, read_mapping, read_measured};
 pub use load::{
     AlongYRequest, LoadedMotion, RecordRequest, SourceFile, VerticalRequest, load_record,

@@ -1,7 +1,8 @@
 //! `slipstick spectrum`, `ida`, `design` and `fragility`: a request in, an answer out.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use slipstick::assessment::AssessmentError;
@@ -9,15 +10,16 @@ use slipstick::hash::sha256_hex;
 use slipstick::requests::{Curves, Results, Runs};
 use slipstick::study::engine::Engine;
 use slipstick_files::{
-    InputFiles, ReadTable, files_of_runs, limit_of_ida, on_threads, read_bytes, read_csv,
+    InputFiles, KeptFile, ReadTable, files_of_runs, limit_of_ida, on_threads, read_bytes, read_csv,
     read_runs, read_table, reading_time, time_left,
 };
+use slipstick_report::number::count;
 
 use crate::args::{AssessArgs, FragilityArgs};
 use crate::failure::Failure;
 use crate::opened::Opened;
-use crate::progress::{TRIAL, counted, estimated};
-use crate::results::{emit, folder};
+use crate::progress::{TRIAL, counted, estimated, on_interrupt};
+use crate::results::{command_line, emit, folder};
 
 /// Runs, prints and writes; status 1 where a run has no answer, or no design is found.
 pub fn assess<const KIND: usize>(args: &AssessArgs<KIND>) -> Result<ExitCode, Failure> {
@@ -25,8 +27,30 @@ pub fn assess<const KIND: usize>(args: &AssessArgs<KIND>) -> Result<ExitCode, Fa
     let opened = Opened::open(&args.model, &args.suite)?;
     let result = &args.suite.result;
     let folder = opened.folder(result)?;
-    let answer = opened.compute(&args.suite, |engine| asked.run(&opened.on(), engine))?;
-    emit(result, folder, answer, &opened.inputs)
+    let kept = result.out.as_deref().map(|out| KeptFile::open(out, &command_line())).transpose()?;
+    if let Some((kept, out)) = kept.as_ref().zip(result.out.clone()) {
+        tell_what_is_kept(kept, out);
+    }
+    let answer = opened.compute(&args.suite, |engine| match &kept {
+        Some(kept) => asked.run(&opened.on(), &engine.keeping(kept)),
+        None => asked.run(&opened.on(), engine),
+    })?;
+    let status = emit(result, folder, answer, &opened.inputs)?;
+    if let Some(kept) = kept {
+        kept.done();
+    }
+    Ok(status)
+}
+
+/// Says how to go on, should Ctrl-C end what follows.
+fn tell_what_is_kept(kept: &KeptFile, out: PathBuf) {
+    let runs = kept.count();
+    on_interrupt(move || {
+        let (runs, out) = (count(runs.load(Ordering::Relaxed)), out.display());
+        format!(
+            "interrupted: {runs} runs in two directions are kept in {out}; the same command goes on with them"
+        )
+    });
 }
 
 /// Fits, prints and writes.

@@ -141,3 +141,53 @@ fn interrupt_leaves_nothing_behind() {
     };
     interrupted(&folder, &["run", "model.toml", "--out", "old"], writing);
 }
+
+/// An analysis of pairs that is interrupted says what it has kept, and the same command goes on with that to the same
+/// result.
+#[test]
+fn interrupted_pairs_go_on() {
+    let model = "[block]\nmass = \"100 t\"\n[slider]\nstatic_friction = 0.06\nkinetic_friction = 0.05\n\
+                 radius = \"2 m\"\n[[storey]]\nmass = \"50 t\"\nperiod = \"0.5 s\"\ndamping_ratio = 0.02\n";
+    let folder = Folder::with_model("pairs-go-on", model);
+    let records = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/records");
+    let [x, y] = ["taft-021.txt", "taft-111.txt"].map(|name| format!("{records}/{name}"));
+    let levels =
+        (1..=80).map(|i| format!("{} g", 0.05 * f64::from(i))).collect::<Vec<_>>().join(", ");
+    let ida = |out: &'static str| {
+        let pair = [
+            "ida",
+            "model.toml",
+            "--records",
+            &x,
+            "--second",
+            &y,
+            "--units",
+            "g",
+            "--dt",
+            "0.01 s",
+        ];
+        let rest = ["--scale-to", &levels, "--limit", "0.3 m", "-j", "1", "-q", "--out", out];
+        pair.into_iter().chain(rest).map(str::to_owned).collect::<Vec<String>>()
+    };
+    let words = |of: &[String]| of.iter().map(String::as_str).collect::<Vec<&str>>();
+    let kept = || std::fs::read_to_string(folder.path().join("out/runs.kept")).unwrap_or_default();
+    let child = start(&mut folder.command(words(&ida("out"))));
+    let started = Instant::now();
+    while kept().lines().count() < 3 {
+        assert!(started.elapsed() < Duration::from_secs(300), "nothing to interrupt");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let mut kill = start(Command::new("kill").args(["-INT", &child.id().to_string()]));
+    assert!(kill.wait().unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130), "{}", text(&output.stderr));
+    let said = text(&output.stderr);
+    assert!(said.contains("are kept in out; the same command goes on with them"), "{said}");
+    let count = kept().lines().count();
+    assert!((3..80).contains(&count), "{count} runs were kept");
+    folder.stdout(&words(&ida("out")));
+    folder.stdout(&words(&ida("whole")));
+    let summary = |out: &str| folder.read(&format!("{out}/summary.json"));
+    assert_eq!(summary("out"), summary("whole"));
+    assert_eq!(kept(), "", "the results stand for their runs");
+}

@@ -33,6 +33,7 @@ use crate::solver;
 use crate::study::Certified;
 use crate::study::cases::{Case, CaseRun, Runs};
 use crate::study::engine::Engine;
+use crate::study::kept::InNumbers;
 use crate::table::{Cells, Column, Table};
 
 /// Runs on a record that steps may be made smaller within; of more than 20 keys two more than those that all take.
@@ -173,6 +174,17 @@ impl Sample {
             demands: columns.iter().map(|&column| all[column]).collect(),
             events: events.map(|e| (e.kind, e.interface, e.mode.sign() as i8)).collect(),
         }
+    }
+}
+
+/// Their events are no numbers, and their runs few.
+impl InNumbers for Sample {
+    fn numbers(&self) -> Option<Vec<f64>> {
+        None
+    }
+
+    fn of(_: Vec<f64>) -> Option<Self> {
+        None
     }
 }
 

@@ -31,6 +31,7 @@ use crate::response::{Response, demand_values};
 use crate::study::cases::{Case, CaseRun, Runs, add_answers};
 use crate::study::certified::{Certified, same_bits};
 use crate::study::engine::Engine;
+use crate::study::kept::InNumbers;
 use crate::study::{Demanded, SLIDING};
 use crate::table::Table;
 
@@ -468,6 +469,17 @@ fn rows(
 
 /// Most values of a variable in a map: 25 by 25 designs give smooth lines.
 const MAP_VALUES: usize = 25;
+
+impl InNumbers for Demand {
+    fn numbers(&self) -> Option<Vec<f64>> {
+        Some(vec![self.displacement_m, self.acceleration_m_per_s2])
+    }
+
+    fn of(numbers: Vec<f64>) -> Option<Self> {
+        let [displacement_m, acceleration_m_per_s2] = numbers[..] else { return None };
+        Some(Self { displacement_m, acceleration_m_per_s2 })
+    }
+}
 
 /// A run of which nothing is known.
 const UNKNOWN: Demand = Demand { displacement_m: f64::NAN, acceleration_m_per_s2: f64::NAN };

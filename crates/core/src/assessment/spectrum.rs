@@ -16,6 +16,7 @@ use crate::response::{DemandColumn, Response, demand_values};
 use crate::study::cases::{Case, CaseRun, add_answers, status};
 use crate::study::certified::{Certified, same_bits};
 use crate::study::engine::Engine;
+use crate::study::kept::InNumbers;
 use crate::study::{Demanded, Record, SLIDING};
 use crate::table::Table;
 
@@ -199,6 +200,19 @@ const RESIDUAL: &str = "residual_sliding_displacement_m";
 struct Run {
     demands: Vec<f64>,
     table: f64,
+}
+
+impl InNumbers for Run {
+    fn numbers(&self) -> Option<Vec<f64>> {
+        let mut numbers = self.demands.clone();
+        numbers.push(self.table);
+        Some(numbers)
+    }
+
+    fn of(mut numbers: Vec<f64>) -> Option<Self> {
+        let table = numbers.pop()?;
+        Some(Self { demands: numbers, table })
+    }
 }
 
 impl SpectrumRequest<'_> {

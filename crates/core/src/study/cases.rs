@@ -9,6 +9,7 @@ use core::borrow::Borrow;
 use super::certified::{Certified, RunKind, Verdict, chosen, is_drawn};
 use super::demanded::TRAVEL_USED_UP;
 use super::engine::{Engine, Running};
+use super::kept::{self, InNumbers};
 use super::pieces::runs_in_piece;
 use super::records::Record;
 use crate::check::{self, Certificate};
@@ -207,6 +208,8 @@ pub(crate) struct Runs<'a, M = ()> {
     tail_s: f64,
     know: Know<'a, M>,
     engine: &'a Engine<'a>,
+    /// Hashes of the records that run in two directions, where their runs are kept.
+    hashes: Vec<Option<String>>,
 }
 
 impl<'a, M: Clone + Send + Sync> Runs<'a, M> {
@@ -217,7 +220,11 @@ impl<'a, M: Clone + Send + Sync> Runs<'a, M> {
         know: Know<'a, M>,
         engine: &'a Engine<'a>,
     ) -> Result<Self, Stopped> {
-        let mut of = Self { records, shared: Vec::new(), tail_s, know, engine };
+        let hashes = match engine.kept() {
+            Some(_) => engine.map(records.len(), |i| Ok(kept::hash_of_record(&records[i])))?,
+            None => Vec::new(),
+        };
+        let mut of = Self { records, shared: Vec::new(), tail_s, know, engine, hashes };
         // A made motion may be another with every design.
         let count = if records.is_empty() { 0 } else { motions.len() };
         of.shared = engine.map(count, |i| {
@@ -242,7 +249,7 @@ impl<'a, M: Clone + Send + Sync> Runs<'a, M> {
 
     /// The runs of cases, in their order; those of one design stand together. `design` gives the model of a
     /// case, `keep` what is kept of a response and of the motion under it. The engine is told of every run.
-    pub(crate) fn all<'d, R: Send>(
+    pub(crate) fn all<'d, R: Send + InNumbers>(
         &self,
         cases: &[Case],
         design: impl Fn(&Case) -> &'d Result<Parts, RunError> + Sync,
@@ -263,7 +270,7 @@ impl<'a, M: Clone + Send + Sync> Runs<'a, M> {
 
     /// The same of pieces of cases, each on one thread, whose models may come back in turn; beside the model of
     /// a case stands the angle by which its motion is turned.
-    pub(crate) fn pieces<'d, R: Send>(
+    pub(crate) fn pieces<'d, R: Send + InNumbers>(
         &self,
         pieces: &[impl AsRef<[Case]> + Sync],
         design: impl Fn(&Case) -> (&'d Result<Parts, RunError>, Option<f64>) + Sync,
@@ -337,10 +344,19 @@ impl<M: Clone + Send + Sync> Runs<'_, M> {
     }
 }
 
+/// A model of several runs.
+struct OfModel<'a> {
+    /// Numbers of its design and its bound.
+    place: [usize; 2],
+    running: Running<'a>,
+    /// Hash of its design, where runs are kept.
+    hash: Option<String>,
+}
+
 /// Runs one after the other: a model is prepared once for all of its runs, a motion for those in a row.
 pub(crate) struct OneThread<'a, M = ()> {
     of: &'a Runs<'a, M>,
-    models: Vec<([usize; 2], Running<'a>)>,
+    models: Vec<OfModel<'a>>,
     own: Option<(MotionOrigin<'a>, Result<Shaking<M>, RunError>)>,
     workspace: Workspace,
 }
@@ -350,7 +366,7 @@ impl<'a, M: Clone + Send + Sync> OneThread<'a, M> {
         Self { of, models: Vec::new(), own: None, workspace: Workspace::default() }
     }
 
-    pub(crate) fn run<R>(
+    pub(crate) fn run<R: InNumbers>(
         &mut self,
         case: Case,
         (parts, turned_rad): (&'a Result<Parts, RunError>, Option<f64>),
@@ -384,20 +400,35 @@ impl<'a, M: Clone + Send + Sync> OneThread<'a, M> {
             Ok(ready) => ready,
             Err(error) => return failed(None, error),
         };
-        let model = [case.design, case.bound];
-        let at = models.iter().position(|(of, _)| *of == model).unwrap_or_else(|| {
-            models.push((model, Running::new(&parts.model, of.engine)));
+        let place = [case.design, case.bound];
+        let at = models.iter().position(|of| of.place == place).unwrap_or_else(|| {
+            let hash = of.engine.kept().map(|_| kept::hash_of_design(parts));
+            let running = Running::new(&parts.model, of.engine);
+            models.push(OfModel { place, running, hash });
             models.len() - 1
         });
+        let OfModel { running, hash, .. } = &mut models[at];
         let known = Some(ready.known.clone());
-        match models[at].1.on(&ready.motion, workspace) {
-            Ok(response) => CaseRun {
-                case,
-                known,
-                noticed: noticed_of(&parts.model, &response),
-                kept: Ok(keep(&case, &response, ready.motion.motion())),
-                holds: None,
-            },
+        let of_record = of.hashes.get(case.record).and_then(Option::as_deref);
+        let keeper = of.engine.kept().zip(hash.as_deref().zip(of_record));
+        let keeper = keeper.filter(|_| turned_rad.is_none());
+        let keeper =
+            keeper.map(|(all, (model, record))| (all, kept::key(model, record, case.scale)));
+        let before = keeper.as_ref().and_then(|(all, key)| all.find(key));
+        if let Some((answer, noticed)) = before.and_then(|line| kept::read(&line)) {
+            return CaseRun { known, noticed, ..CaseRun::of(case, Ok(answer)) };
+        }
+        match running.on(&ready.motion, workspace) {
+            Ok(response) => {
+                let answer = keep(&case, &response, ready.motion.motion());
+                let noticed = noticed_of(&parts.model, &response);
+                if let Some((all, key)) = keeper
+                    && let Some(line) = kept::line(&answer, &noticed)
+                {
+                    all.keep(&key, &line);
+                }
+                CaseRun { known, noticed, ..CaseRun::of(case, Ok(answer)) }
+            }
             Err(error) => failed(known, &error.into()),
         }
     }

@@ -11,6 +11,7 @@ use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::Arc;
 
+use super::kept::KeptRuns;
 use crate::error::{SolveError, Stopped};
 use crate::model::Model;
 use crate::numerics::sort;
@@ -26,6 +27,7 @@ pub struct Engine<'a> {
     follow: Follow<'a>,
     stopped: AtomicBool,
     planned: Arc<AtomicU64>,
+    kept: Option<&'a dyn KeptRuns>,
 }
 
 impl Engine<'static> {
@@ -46,7 +48,18 @@ impl<'a> Engine<'a> {
     /// The same, whose follower may look how many runs are planned.
     #[must_use]
     pub fn planning(follow: Follow<'a>, planned: Arc<AtomicU64>) -> Self {
-        Self { follow, stopped: AtomicBool::new(false), planned }
+        Self { follow, stopped: AtomicBool::new(false), planned, kept: None }
+    }
+
+    /// An engine of the same follower, whose costly runs are kept, and not made again where they are.
+    #[must_use]
+    pub fn keeping(&self, kept: &'a dyn KeptRuns) -> Self {
+        Self { kept: Some(kept), ..Self::planning(self.follow, self.planned.clone()) }
+    }
+
+    /// Where costly runs are kept.
+    pub(crate) fn kept(&self) -> Option<&'a dyn KeptRuns> {
+        self.kept
     }
 
     /// Tells that so many more runs are to be done.

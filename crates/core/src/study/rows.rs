@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::cases::{Case, CaseRun, Cases, Noticed, Runs};
 use super::certified::RunKind;
 use super::engine::Engine;
+use super::kept::InNumbers;
 use super::notices::{USUAL_FACTORS, coarse_sampling, longest_step_s};
 use super::pieces::runs_in_piece;
 use super::{CHUNK, Sample, Study, chunks};
@@ -75,6 +76,17 @@ struct Shaken {
 
 /// What rows keep of a response: its demands, and kinds of what is noticed of them.
 type Answer = (Vec<f64>, Vec<NoticeKind>);
+
+/// The parts of a study are kept instead.
+impl InNumbers for Answer {
+    fn numbers(&self) -> Option<Vec<f64>> {
+        None
+    }
+
+    fn of(_: Vec<f64>) -> Option<Self> {
+        None
+    }
+}
 
 impl Study {
     /// The rows of a range of runs, in order; the engine is told of every run.

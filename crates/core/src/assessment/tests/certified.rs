@@ -193,3 +193,65 @@ fn what_is_not_confirmed_leaves_the_statistics() {
         assert!(holds != 0.0 || demand.is_nan(), "{holds} {demand}");
     }
 }
+
+/// Answers in memory, and how often one was found.
+#[derive(Default)]
+struct InMemory {
+    lines: std::sync::Mutex<std::collections::HashMap<String, String>>,
+    found: core::sync::atomic::AtomicUsize,
+}
+
+impl crate::study::kept::KeptRuns for InMemory {
+    fn find(&self, key: &str) -> Option<String> {
+        let line = self.lines.lock().unwrap().get(key).cloned();
+        self.found.fetch_add(usize::from(line.is_some()), core::sync::atomic::Ordering::Relaxed);
+        line
+    }
+
+    fn keep(&self, key: &str, line: &str) {
+        let before = self.lines.lock().unwrap().insert(key.to_owned(), line.to_owned());
+        assert_eq!(before, None, "a run was made twice");
+    }
+}
+
+/// Runs of pairs that were kept are not made again, say the same to the last bit, and serve no other run.
+#[test]
+fn kept_runs_of_pairs_serve_the_same_runs() {
+    use core::sync::atomic::Ordering;
+
+    let mut suite = suite();
+    for record in &mut suite.records {
+        let motion = &record.motion;
+        let y = motion.horizontal_m_per_s2().iter().rev().map(|a| 0.8 * a).collect();
+        record.motion = motion.clone().with_y(y).unwrap();
+    }
+    let kept = InMemory::default();
+    let unwatched = Engine::unwatched();
+    let engine = unwatched.keeping(&kept);
+    let ida = |top: f64, engine: &Engine<'_>| {
+        let models = models(&[]).in_plane();
+        let request = IdaRequest {
+            models: &models,
+            suite: &suite,
+            measure: PGA,
+            demand: DEMAND,
+            limit: Some(0.05),
+            levels: IdaLevels::Fixed(vec![1.0, 2.0, top]),
+            bounds: &[],
+            keep: &[],
+            by: None,
+        };
+        run_ida(&request, engine).unwrap()
+    };
+    let plain = ida(3.0, &unwatched);
+    let first = ida(3.0, &engine);
+    assert_eq!((kept.lines.lock().unwrap().len(), kept.found.load(Ordering::Relaxed)), (15, 0));
+    let second = ida(3.0, &engine);
+    assert_eq!(kept.found.load(Ordering::Relaxed), 15);
+    let bits = |run: &IdaRun| format!("{run:?}");
+    assert_eq!(bits(&first), bits(&plain));
+    assert_eq!(bits(&second), bits(&plain));
+    let other = ida(4.0, &engine);
+    assert_eq!(kept.found.load(Ordering::Relaxed), 25);
+    assert_eq!(bits(&other), bits(&ida(4.0, &unwatched)));
+}
