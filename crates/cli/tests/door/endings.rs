@@ -171,7 +171,7 @@ fn interrupted_pairs_go_on() {
     };
     let words = |of: &[String]| of.iter().map(String::as_str).collect::<Vec<&str>>();
     let kept = || std::fs::read_to_string(folder.path().join("out/runs.kept")).unwrap_or_default();
-    let child = start(&mut folder.command(words(&ida("out"))));
+    let child = start(&mut folder.command(&words(&ida("out"))));
     let started = Instant::now();
     while kept().lines().count() < 3 {
         assert!(started.elapsed() < Duration::from_secs(300), "nothing to interrupt");
