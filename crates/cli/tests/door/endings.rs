@@ -169,7 +169,9 @@ fn interrupted_pairs_go_on() {
         let rest = ["--scale-to", &levels, "--limit", "0.3 m", "-j", "1", "-q", "--out", out];
         pair.into_iter().chain(rest).map(str::to_owned).collect::<Vec<String>>()
     };
-    let words = |of: &[String]| of.iter().map(String::as_str).collect::<Vec<&str>>();
+    fn words(of: &[String]) -> Vec<&str> {
+        of.iter().map(String::as_str).collect()
+    }
     let kept = || std::fs::read_to_string(folder.path().join("out/runs.kept")).unwrap_or_default();
     let child = start(&mut folder.command(&words(&ida("out"))));
     let started = Instant::now();
