@@ -283,9 +283,10 @@ fn tank_of_the_example_is_that_of_its_dimensions() {
     assert_eq!(folder.read("it.toml"), folder.read("us.toml"));
     assert!(folder.read("it.toml").contains("mass = \"2513.27 t\""));
     // Under a pair it is the same in both directions.
-    folder.write("y.txt", "0 0.3 0.6 0.2 -0.4 -0.7 -0.1 0.3 0.1 0\n");
+    folder.write("x.txt", "0 0.3 0.6 0.2 -0.4 -0.7 -0.1 0.3 0.1 0\n");
+    folder.write("y.txt", "0 0.1 -0.2 -0.5 0.1 0.6 0.2 -0.1 0 0\n");
     let pair =
-        ["it.toml", "--records", "y.txt", "--second", "y.txt", "--units", "g", "--dt", "0.1 s"];
+        ["it.toml", "--records", "x.txt", "--second", "y.txt", "--units", "g", "--dt", "0.1 s"];
     let said = folder.stdout(&[&["run"], &pair[..]].concat());
     assert!(said.contains("in two directions"), "{said}");
     // A workbook is no table: the message says what to do.
