@@ -49,9 +49,10 @@ pub fn all(report: &Report) -> Vec<Drawn> {
     let Some(history) = history else { return Vec::new() };
     let scene = Scene::new(report, history);
     let along_y = report.response.in_plane.as_ref().and_then(|plane| plane.history.as_ref());
+    let floor_spectra = report.floor_spectra.and_then(|spectra| spectra::floors(report, spectra));
     if let Some(along_y) = along_y {
         let mut figures = plane::all(&scene, along_y);
-        figures.extend(energy::by_kind(&scene));
+        figures.extend(floor_spectra.into_iter().chain(energy::by_kind(&scene)));
         return figures;
     }
     [
@@ -62,7 +63,7 @@ pub fn all(report: &Report) -> Vec<Drawn> {
         devices::surfaces(&scene),
         devices::contents(&scene),
         devices::friction_by_speed(&scene),
-        report.floor_spectra.and_then(|spectra| spectra::floors(report, spectra)),
+        floor_spectra,
         force::demand(&scene),
         energy::by_kind(&scene),
     ]

@@ -51,10 +51,6 @@ fn one(args: &RunArgs, model: &Path) -> Result<ExitCode, Failure> {
     let piece = |bytes: &[u8]| drop(record::read("", bytes, &record::Options::default()));
     let open = || OpenJob::new(&model.path, analysis, record.as_ref());
     let job = reading(file.as_deref(), args.on.result.quiet, &piece, open).map_err(in_model)?;
-    if asked.floor_spectrum && job.job.motion.horizontal_y_m_per_s2().is_some() {
-        let message = "--floor-spectrum: expected a motion in one direction, found one in two";
-        return Err(Failure::Message(message.to_owned()));
-    }
     if let Some(stiffness) = &args.to_opensees {
         print(&opensees_script(&model, &job.job, stiffness)?)?;
         return Ok(ExitCode::SUCCESS);

@@ -54,7 +54,8 @@ def run(
         The motion of the table; the model's own if left out. Several by name are a suite, of which the answer
         is that of ``suite``.
     floor_spectrum
-        Whether response spectra of table, block and floors are wanted in ``summary``.
+        Whether response spectra of table, block and floors are wanted in ``summary``; in two directions RotD100,
+        and those along x and along y.
     history
         Whether histories are kept. Demands, counts and events are the same without, bit for bit.
     check

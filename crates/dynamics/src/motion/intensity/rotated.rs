@@ -1,9 +1,16 @@
 //! Measures of a pair of horizontal components over all directions: RotD50 and RotD100.
 
+use core::f64::consts::TAU;
+
 use super::Measure;
 use crate::error::MotionError;
+use crate::motion::combine::direction;
+use crate::motion::oscillator::{Interval, Overshoot, Peaks, State, Step, Steps};
 use crate::motion::{GroundMotion, Ordinates, Spectrum, spectrum};
 use crate::numerics::fractile::median;
+
+/// Number of directions, a degree apart.
+const DIRECTIONS: u8 = 180;
 
 /// A measure of the component at every whole degree from 0 to 179 between two components.
 ///
@@ -89,7 +96,191 @@ fn in_all_directions<T>(
     of: impl Fn(&GroundMotion) -> Result<T, MotionError>,
 ) -> Result<Vec<T>, MotionError> {
     let (pair, _) = x.with_vertical(y, 1.0)?;
-    (0..180).map(|degrees| of(&pair.in_direction(f64::from(degrees))?)).collect()
+    (0..DIRECTIONS).map(|degrees| of(&pair.in_direction(f64::from(degrees))?)).collect()
+}
+
+/// Spectral accelerations of a motion with two horizontal components, one a period, in m/s².
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SaInPlane {
+    /// Sa of the first component.
+    pub x_m_per_s2: Vec<f64>,
+    /// Sa of the second component.
+    pub y_m_per_s2: Vec<f64>,
+    /// RotD100 of Sa: the largest over the directions of [`RotD`].
+    pub rotd100_m_per_s2: Vec<f64>,
+}
+
+impl SaInPlane {
+    /// Spectral accelerations of two components in m/s² that are linear between the same times, where a repeated
+    /// time is a jump.
+    ///
+    /// RotD100 is that of [`rotated_spectra`] but for rounding. As it alone is asked for, the motion is followed once
+    /// for all directions: a direction is looked at where it may exceed what all others have attained.
+    ///
+    /// # Errors
+    /// As [`spectrum`].
+    ///
+    /// # Examples
+    /// ```
+    /// use slipstick_dynamics::motion::intensity::SaInPlane;
+    ///
+    /// // Both components are one motion along 45°.
+    /// let (times_s, along) = (vec![0.0, 0.1, 0.2, 0.3], vec![0.0, 2.0, -1.0, 0.0]);
+    /// let sa = SaInPlane::of(&times_s, [&along, &along], &[0.2], 0.05)?;
+    /// assert_eq!(sa.x_m_per_s2, sa.y_m_per_s2);
+    /// let ratio = sa.rotd100_m_per_s2[0] / sa.x_m_per_s2[0];
+    /// assert!((ratio - 2.0_f64.sqrt()).abs() < 1e-12);
+    /// # Ok::<(), slipstick_dynamics::error::MotionError>(())
+    /// ```
+    pub fn of(
+        times_s: &[f64],
+        components_m_per_s2: [&[f64]; 2],
+        periods_s: &[f64],
+        damping_ratio: f64,
+    ) -> Result<Self, MotionError> {
+        let sa = |component: &[f64]| {
+            let spectrum = spectrum(times_s, component, periods_s, &[damping_ratio])?;
+            Ok(spectrum.ordinates.iter().map(|o| o.sa_m_per_s2).collect::<Vec<f64>>())
+        };
+        let [x, y] = components_m_per_s2;
+        let (x_m_per_s2, y_m_per_s2) = (sa(x)?, sa(y)?);
+        let directions: Vec<[f64; 2]> =
+            (0..DIRECTIONS).map(|degrees| direction(f64::from(degrees))).collect();
+        let along = x_m_per_s2.iter().zip(&y_m_per_s2).map(|(x, y)| x.max(*y));
+        let rotd100 = periods_s.iter().zip(along).map(|(&period_s, attained)| {
+            let vector = VectorMotion { times_s, x, y, directions: &directions };
+            match TAU / period_s {
+                omega if omega.is_finite() => vector.largest_sa(omega, damping_ratio, attained),
+                _ => vector.largest(attained),
+            }
+        });
+        Ok(Self { rotd100_m_per_s2: rotd100.collect(), x_m_per_s2, y_m_per_s2 })
+    }
+}
+
+/// Two components of an acceleration in m/s² at the same times, and the directions in which it is looked at.
+struct VectorMotion<'a> {
+    times_s: &'a [f64],
+    x: &'a [f64],
+    y: &'a [f64],
+    directions: &'a [[f64; 2]],
+}
+
+/// Longest phase of the parts that an interval is cut into: what a peak inside may exceed the ends by is then small, so
+/// that few parts are looked at in all directions.
+const PART: f64 = 0.4;
+
+/// Parts of an interval beyond which it is not cut, but looked at as it is.
+const MOST_PARTS: f64 = 64.0;
+
+impl VectorMotion<'_> {
+    /// Largest acceleration over the directions, at least `attained`.
+    fn largest(&self, attained: f64) -> f64 {
+        let sizes = self.directions.iter().flat_map(|[cos, sin]| {
+            let both = self.x.iter().zip(self.y);
+            both.map(move |(x, y)| (x * cos + y * sin).abs())
+        });
+        sizes.fold(attained, f64::max)
+    }
+
+    /// Largest total acceleration over the directions of an oscillator, ω in rad/s, at least `attained`.
+    ///
+    /// In every direction both ends of an interval and its forcing are at most the norms of the vectors, so that
+    /// where these do not pass the bound of [`Overshoot`], no direction does.
+    fn largest_sa(&self, omega: f64, xi: f64, attained: f64) -> f64 {
+        let stiffness = omega * omega;
+        let mut steps = Steps::new(xi);
+        let mut start = VectorState { u: [0.0; 2], w: [0.0; 2], total: 0.0 };
+        let mut most = attained / stiffness;
+        for (k, t) in self.times_s.windows(2).enumerate() {
+            let theta = omega * (t[1] - t[0]);
+            if theta == 0.0 {
+                continue;
+            }
+            let parts = libm::ceil(theta / PART);
+            let parts = if parts > MOST_PARTS { 1.0 } else { parts };
+            let part = theta / parts;
+            let (step, overshoot) = (steps.of(part), Overshoot::new(part, xi));
+            let alpha = [self.x, self.y].map(|a| [a[k] / stiffness, a[k + 1] / stiffness]);
+            // The total acceleration is forced by α + 2ξσ.
+            let shift = norm(alpha.map(|[from, to]| 2.0 * xi * (to - from) / theta));
+            let ends = [0, 1].map(|end| norm(alpha.map(|alpha| alpha[end])));
+            let forcing = ends[0].max(ends[1]) + shift;
+            for i in 0..parts as u32 {
+                let at = |i: u32| {
+                    let share = f64::from(i) / parts;
+                    alpha.map(|[from, to]| from + (to - from) * share)
+                };
+                let alpha = [at(i), at(i + 1)];
+                let end = start.after(&step, alpha, xi);
+                if start.total.max(end.total) > overshoot.limit(most, forcing) {
+                    let vector = VectorInterval { xi, theta: part, start, end, alpha };
+                    most = vector.raise(overshoot, self.directions, [most, forcing]);
+                }
+                start = end;
+            }
+        }
+        attained.max(stiffness * most)
+    }
+}
+
+/// States of an oscillator under both components, as [`State`], and the norm of its total acceleration over ω².
+#[derive(Clone, Copy)]
+struct VectorState {
+    u: [f64; 2],
+    w: [f64; 2],
+    total: f64,
+}
+
+impl VectorState {
+    fn after(&self, step: &Step, [alpha0, alpha1]: [[f64; 2]; 2], xi: f64) -> Self {
+        let of = |c: usize| step.apply(State { u: self.u[c], w: self.w[c] }, alpha0[c], alpha1[c]);
+        let [x, y] = [of(0), of(1)];
+        let total = norm([x, y].map(|state| state.u + 2.0 * xi * state.w));
+        Self { u: [x.u, y.u], w: [x.w, y.w], total }
+    }
+}
+
+/// One interval of both components, seen by one oscillator; the fields are those of [`Interval`].
+struct VectorInterval {
+    xi: f64,
+    theta: f64,
+    start: VectorState,
+    end: VectorState,
+    /// At its start and at its end.
+    alpha: [[f64; 2]; 2],
+}
+
+impl VectorInterval {
+    /// The largest total acceleration over the directions and the interval, at least `most`.
+    fn raise(
+        &self,
+        overshoot: Overshoot,
+        directions: &[[f64; 2]],
+        [most, forcing]: [f64; 2],
+    ) -> f64 {
+        let Self { xi, theta, .. } = *self;
+        // What is infinite is not looked for.
+        let (u, w) = (f64::INFINITY, f64::INFINITY);
+        let mut peaks = Peaks { u, w, total: most };
+        for [cos, sin] in directions {
+            let along = |[x, y]: [f64; 2]| x * cos + y * sin;
+            let [start, end] =
+                [&self.start, &self.end].map(|at| State { u: along(at.u), w: along(at.w) });
+            let sizes = [&start, &end].map(|at| (at.u + 2.0 * xi * at.w).abs());
+            if sizes[0].max(sizes[1]) <= overshoot.limit(peaks.total, forcing) {
+                continue;
+            }
+            peaks.raise(end, xi);
+            let [alpha0, alpha1] = self.alpha.map(along);
+            Interval { xi, theta, start, end, alpha0, alpha1 }.raise(overshoot, &mut peaks);
+        }
+        peaks.total
+    }
+}
+
+fn norm([x, y]: [f64; 2]) -> f64 {
+    (x * x + y * y).sqrt()
 }
 
 fn largest(values: &[f64]) -> f64 {
@@ -124,6 +315,52 @@ mod tests {
         let rotated = RotD::of(&Measure::Pga, &x, &y).unwrap();
         assert!((rotated.largest() - 1.0).abs() < 1e-12);
         assert!((rotated.median() - 1.0).abs() < 1e-12);
+    }
+
+    /// Followed once for all directions, a motion has the RotD100 of its 180 spectra: at even and uneven times, jumps,
+    /// gaps of many periods, and periods far shorter and longer than a sample.
+    #[test]
+    fn sa_in_plane_is_that_of_rotated_spectra() {
+        let mut seed = 5_u64;
+        let mut random = || {
+            seed = seed
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        };
+        let periods_s = [0.0, 0.01, 0.03, 0.1, 0.3, 4.0];
+        for case in 0..8 {
+            let mut times_s = vec![0.0];
+            for k in 1..40 {
+                let gap = match (case, k % 9) {
+                    (0, _) => 0.02,
+                    (1.., 4) => 0.0,
+                    (4.., 7) => 1.5,
+                    _ => 0.02 * (1.1 + random()),
+                };
+                times_s.push(times_s[k - 1] + gap);
+            }
+            let component = |random: &mut dyn FnMut() -> f64| -> Vec<f64> {
+                times_s.iter().map(|_| 3.0 * random()).collect()
+            };
+            let (x, y) = (component(&mut random), component(&mut random));
+            let xi = [0.0, 0.02, 0.05, 0.4][case % 4];
+            let found = SaInPlane::of(&times_s, [&x, &y], &periods_s, xi).unwrap();
+            let motion = |a: &[f64]| GroundMotion::new(times_s.clone(), a.to_vec(), None).unwrap();
+            let [_, largest] =
+                rotated_spectra(&motion(&x), &motion(&y), &periods_s, &[xi]).unwrap();
+            for (i, period_s) in periods_s.iter().enumerate() {
+                let (found, expected) =
+                    (found.rotd100_m_per_s2[i], largest.ordinates[i].sa_m_per_s2);
+                assert!(
+                    (found / expected - 1.0).abs() < 1e-11,
+                    "{case} {period_s} {found} {expected}"
+                );
+            }
+            let along = spectrum(&times_s, &y, &periods_s, &[xi]).unwrap();
+            let along: Vec<f64> = along.ordinates.iter().map(|o| o.sa_m_per_s2).collect();
+            assert_eq!(found.y_m_per_s2, along);
+        }
     }
 
     #[test]
