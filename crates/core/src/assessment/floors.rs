@@ -1,7 +1,5 @@
 //! Floor response spectra: those of table, block and floors, or of the points of a structure by its modes.
 
-use std::borrow::Cow;
-
 use crate::error::{MotionError, Stopped};
 use crate::input::Names;
 use crate::motion::intensity::SaInPlane;
@@ -61,35 +59,35 @@ impl FloorSpectra {
         let Some(x) = &response.history else { return Ok(None) };
         let plane = response.in_plane.as_ref();
         let y = plane.and_then(|plane| plane.history.as_ref());
-        let at_knots = |along_x: &dyn Fn(usize) -> f64| (0..x.len()).map(along_x).collect();
-        let times_s = &x.time_s[..];
+        let own = |list: &[f64]| vec![list.to_vec()];
         let table = Shaken {
             times_s: motion.times_s(),
-            x: motion.horizontal_m_per_s2().into(),
-            y: motion.horizontal_y_m_per_s2().filter(|_| y.is_some()).map(Cow::from),
-        };
-        let block = Shaken {
-            times_s,
-            x: (&x.block_acceleration_m_per_s2[..]).into(),
-            y: y.map(|y| (&y.block_acceleration_m_per_s2[..]).into()),
-        };
-        let point = |i: usize| match y {
-            None => Shaken { times_s, x: at_knots(&|knot| x.point_acceleration(knot, i)), y: None },
-            Some(y) => Shaken {
-                times_s,
-                x: at_knots(&|knot| y.point_acceleration(x, knot, i)[0]),
-                y: Some(at_knots(&|knot| y.point_acceleration(x, knot, i)[1])),
-            },
+            x: own(motion.horizontal_m_per_s2()),
+            y: motion.horizontal_y_m_per_s2().filter(|_| y.is_some()).map(own),
         };
         let points = y.map_or_else(|| x.point_count(), |y| y.point_count(x));
+        let mut above = Shaken {
+            times_s: &x.time_s,
+            x: own(&x.block_acceleration_m_per_s2),
+            y: y.map(|y| own(&y.block_acceleration_m_per_s2)),
+        };
+        let at_knots = |of: &dyn Fn(usize) -> f64| (0..x.len()).map(of).collect::<Vec<f64>>();
+        for i in 0..points {
+            match (y, &mut above.y) {
+                (Some(y), Some(along_y)) => {
+                    above.x.push(at_knots(&|knot| y.point_acceleration(x, knot, i)[0]));
+                    along_y.push(at_knots(&|knot| y.point_acceleration(x, knot, i)[1]));
+                }
+                _ => above.x.push(at_knots(&|knot| x.point_acceleration(knot, i))),
+            }
+        }
         let periods_s = periods();
-        let of = |shaken: &Shaken<'_>| shaken.sa(&periods_s, go_on);
-        let storeys: Result<Vec<_>, Stopped> = (0..points).map(|i| of(&point(i))).collect();
-        let (table, block, storeys) = (of(&table)?, of(&block)?, storeys?);
+        let table = table.sa(&periods_s, go_on)?;
+        let above = above.sa(&periods_s, go_on)?;
         let places = |of: fn(&SaInPlane) -> &Vec<f64>| PlaceSpectra {
-            table_m_per_s2: of(&table).clone(),
-            block_m_per_s2: of(&block).clone(),
-            storeys_m_per_s2: storeys.iter().map(|storey| of(storey).clone()).collect(),
+            table_m_per_s2: of(&table[0]).clone(),
+            block_m_per_s2: of(&above[0]).clone(),
+            storeys_m_per_s2: above[1..].iter().map(|storey| of(storey).clone()).collect(),
         };
         let axes = y.map(|_| [places(|sa| &sa.x_m_per_s2), places(|sa| &sa.y_m_per_s2)]);
         let sa = match y {
@@ -136,36 +134,55 @@ fn periods() -> Vec<f64> {
     periods_s
 }
 
-/// Accelerations of a place in m/s² at its times in s: along x, and along y where there are two directions.
+/// Accelerations of places in m/s² at the same times in s: of each along x, and along y where there are two
+/// directions.
 struct Shaken<'a> {
     times_s: &'a [f64],
-    x: Cow<'a, [f64]>,
-    y: Option<Cow<'a, [f64]>>,
+    x: Vec<Vec<f64>>,
+    y: Option<Vec<Vec<f64>>>,
 }
 
 impl Shaken<'_> {
-    /// Its spectra, in one direction along x alone; empty where it is too short for one.
-    fn sa(&self, periods_s: &[f64], go_on: GoOn<'_>) -> Result<SaInPlane, Stopped> {
-        let together = if self.times_s.len() < LONG_HISTORY { periods_s.len() } else { 1 };
-        let mut all = SaInPlane::default();
+    /// The spectra of each place, in one direction along x alone; empty where the history is too short for one.
+    fn sa(&self, periods_s: &[f64], go_on: GoOn<'_>) -> Result<Vec<SaInPlane>, Stopped> {
+        let mut all = vec![SaInPlane::default(); self.x.len()];
+        let samples = self.times_s.len() * self.y.as_ref().map_or(1, Vec::len);
+        let together = if samples < LONG_HISTORY { periods_s.len() } else { 1 };
         for periods_s in periods_s.chunks(together) {
-            if go_on().is_break() {
-                return Err(Stopped);
+            let found = match &self.y {
+                Some(y) => {
+                    let motions = self.x.iter().zip(y).map(|(x, y)| [&x[..], y]);
+                    let motions: Vec<[&[f64]; 2]> = motions.collect();
+                    asked(go_on)?;
+                    SaInPlane::of_each(self.times_s, &motions, periods_s, DAMPING_RATIO)
+                }
+                None => {
+                    let along = |x: &Vec<f64>| -> Result<_, Stopped> {
+                        asked(go_on)?;
+                        Ok(self.along_x(x, periods_s))
+                    };
+                    let along: Vec<_> = self.x.iter().map(along).collect::<Result<_, Stopped>>()?;
+                    along.into_iter().collect()
+                }
+            };
+            let Ok(found) = found else { return Ok(vec![SaInPlane::default(); self.x.len()]) };
+            for (all, found) in all.iter_mut().zip(found) {
+                all.x_m_per_s2.extend(found.x_m_per_s2);
+                all.y_m_per_s2.extend(found.y_m_per_s2);
+                all.rotd100_m_per_s2.extend(found.rotd100_m_per_s2);
             }
-            let Ok(some) = self.sa_at(periods_s) else { return Ok(SaInPlane::default()) };
-            all.x_m_per_s2.extend(some.x_m_per_s2);
-            all.y_m_per_s2.extend(some.y_m_per_s2);
-            all.rotd100_m_per_s2.extend(some.rotd100_m_per_s2);
         }
         Ok(all)
     }
 
-    fn sa_at(&self, periods_s: &[f64]) -> Result<SaInPlane, MotionError> {
-        if let Some(y) = &self.y {
-            return SaInPlane::of(self.times_s, [&self.x, y], periods_s, DAMPING_RATIO);
-        }
-        let spectrum = spectrum(self.times_s, &self.x, periods_s, &[DAMPING_RATIO])?;
+    fn along_x(&self, x: &[f64], periods_s: &[f64]) -> Result<SaInPlane, MotionError> {
+        let spectrum = spectrum(self.times_s, x, periods_s, &[DAMPING_RATIO])?;
         let along_x = spectrum.ordinates.iter().map(|ordinates| ordinates.sa_m_per_s2);
         Ok(SaInPlane { x_m_per_s2: along_x.collect(), ..SaInPlane::default() })
     }
+}
+
+/// Asks whether to go on.
+fn asked(go_on: GoOn<'_>) -> Result<(), Stopped> {
+    if go_on().is_break() { Err(Stopped) } else { Ok(()) }
 }
