@@ -115,7 +115,7 @@ fn sliding_intervals(history: &History) -> Vec<[f64; 2]> {
 
 /// Storeys worth a panel, as indices: all of three, else the lowest, the one with the largest
 /// value and the roof.
-fn shown_storeys(values: &[f64]) -> Vec<usize> {
+pub(crate) fn shown_storeys(values: &[f64]) -> Vec<usize> {
     let n = values.len();
     if n <= 3 {
         return (0..n).collect();
@@ -136,7 +136,7 @@ fn drifts_title(names: &Names) -> &'static str {
 }
 
 /// ` Storeys 1, 4 and 8 of 8 are drawn.`, points by their names, or nothing where all are.
-fn shown_note(shown: &[usize], n: usize, names: &Names) -> String {
+pub(crate) fn shown_note(shown: &[usize], n: usize, names: &Names) -> String {
     match shown {
         [a, b, c] if n > 3 && !names.points.is_empty() => {
             let [a, b, c] = [a, b, c].map(|i| names.point(i + 1));

@@ -1,33 +1,19 @@
 //! What figures and tables of floor spectra share.
 
-use slipstick::assessment::floors::{FloorSpectra, PlaceSpectra, TABLED_PERIODS_S};
+use slipstick::assessment::floors::{FloorSpectra, TABLED_PERIODS_S, place_name};
 use slipstick::input::Names;
 
 use crate::assessment::sheet::{Table, cell};
-use crate::display::{DisplayUnits, Quantity};
+use crate::display::{DisplayUnits, Quantity, Unit};
 use crate::markup::shortened;
-use crate::number::{compact, printed};
+use crate::number::compact;
 
-/// What the spectra of [`in_directions`] are of; in one direction nothing need be said.
+/// What the spectra of [`FloorSpectra::in_directions`] are of; in one direction nothing need be said.
 pub(crate) const DIRECTIONS: [&str; 3] = ["RotD100", "along x", "along y"];
-
-/// The spectra of the one direction, or RotD100 and those along x and along y.
-pub(crate) fn in_directions(spectra: &FloorSpectra) -> Vec<&PlaceSpectra> {
-    core::iter::once(&spectra.sa).chain(spectra.axes.iter().flatten()).collect()
-}
 
 /// The largest ordinate; 0 of none.
 pub(crate) fn largest(values: &[f64]) -> f64 {
     values.iter().copied().fold(0.0, f64::max)
-}
-
-/// What a place is called: 0 the ground, 1 the block, then the floors or points.
-pub(crate) fn place_name(names: &Names, place: usize) -> String {
-    match place {
-        0 => "Ground".to_owned(),
-        1 => names.block().to_owned(),
-        point => names.point(point - 1),
-    }
 }
 
 /// Heads of a table of spectra: the largest ordinate, its period, and the ordinates at round periods.
@@ -36,26 +22,26 @@ pub(crate) fn heads() -> impl Iterator<Item = String> {
     ["Largest", "at (s)"].map(str::to_owned).into_iter().chain(periods)
 }
 
-/// The cells below [`heads`] of a spectrum in the unit that `shown` gives it; what is missing is a dash.
-pub(crate) fn cells(
-    periods_s: &[f64],
-    sa_m_per_s2: &[f64],
-    shown: impl Fn(f64) -> String,
-) -> Vec<String> {
+/// What stands below [`heads`], of a spectrum in m/s²; what is missing is NaN.
+pub(crate) fn ordinates(periods_s: &[f64], sa_m_per_s2: &[f64]) -> Vec<f64> {
     let largest = periods_s.iter().zip(sa_m_per_s2).reduce(|a, b| if b.1 > a.1 { b } else { a });
-    let at = largest.map_or("—".to_owned(), |(period_s, _)| cell(*period_s));
+    let [at_s, largest] = largest.map_or([f64::NAN; 2], |(period_s, sa)| [*period_s, *sa]);
     let ordinate = |period_s: &f64| {
         let place = periods_s.iter().position(|known| known == period_s);
         place.and_then(|place| sa_m_per_s2.get(place)).copied().unwrap_or(f64::NAN)
     };
-    let largest = shown(largest.map_or(f64::NAN, |(_, sa)| *sa));
-    let tabled = TABLED_PERIODS_S.iter().map(|period_s| shown(ordinate(period_s)));
-    [largest, at].into_iter().chain(tabled).collect()
+    [largest, at_s].into_iter().chain(TABLED_PERIODS_S.iter().map(ordinate)).collect()
 }
 
-/// `Floor spectra at 5 % damping (m/s²)`.
-pub(crate) fn heading(damping_ratio: f64, unit: &str) -> String {
-    format!("Floor spectra at {} % damping ({unit})", printed(100.0 * damping_ratio, 2))
+/// The cells of [`ordinates`], of which the second is a period.
+pub(crate) fn shown_ordinates(values: &[f64], unit: Unit) -> Vec<String> {
+    let shown = |(i, value): (usize, &f64)| cell(if i == 1 { *value } else { unit.of(*value) });
+    values.iter().enumerate().map(shown).collect()
+}
+
+/// `Floor spectra at 5 % damping, RotD100 (m/s²)`.
+pub(crate) fn heading(damping_ratio: f64, unit: &str, direction: &str) -> String {
+    format!("Floor spectra at {} % damping{direction} ({unit})", compact(100.0 * damping_ratio))
 }
 
 /// The spectra of a run at round periods: a row a place, in two directions RotD100 with x and y below it; none
@@ -63,7 +49,7 @@ pub(crate) fn heading(damping_ratio: f64, unit: &str) -> String {
 pub(crate) fn table(spectra: &FloorSpectra, names: &Names, display: DisplayUnits) -> Option<Table> {
     let periods_s = &spectra.periods_s;
     periods_s.first()?;
-    let directions = in_directions(spectra);
+    let directions: Vec<_> = spectra.in_directions().collect();
     let most = spectra.sa.places().map(largest).fold(0.0, f64::max);
     let unit = display.unit(Quantity::Acceleration, most);
     let first = if directions.len() > 1 { "Place, RotD100" } else { "Place" };
@@ -75,9 +61,9 @@ pub(crate) fn table(spectra: &FloorSpectra, names: &Names, display: DisplayUnits
                 _ => format!("  {}", DIRECTIONS[i]),
             };
             let sa = direction.places().nth(place).unwrap_or_default();
-            let cells = cells(periods_s, sa, |sa| cell(unit.of(sa)));
+            let cells = shown_ordinates(&ordinates(periods_s, sa), unit);
             rows.push(core::iter::once(name).chain(cells).collect());
         }
     }
-    Some((heading(spectra.damping_ratio, unit.symbol), rows))
+    Some((heading(spectra.damping_ratio, unit.symbol, ""), rows))
 }

@@ -19,7 +19,7 @@ use crate::args::{RunArgs, quantity};
 use crate::failure::{Failure, print, say};
 use crate::model_file::{ModelFile, read_model, tell_replaced};
 use crate::progress::{Lines, TRIAL, estimated, reading, writing};
-use crate::results::{command_line, folder};
+use crate::results::{OF_SOME, command_line, folder};
 
 /// Runs one analysis, prints it and writes its files.
 pub fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
@@ -176,7 +176,8 @@ fn write_files(
         command_line: &command_line,
         display: args.on.result.display_units,
     };
-    folder.replaces(&["runs.csv", "governing.csv", "histories.svg", "shares.svg"]);
+    let of_suites = ["runs.csv", "governing.csv", "histories.svg", "shares.svg"];
+    folder.replaces(&[&of_suites[..], &OF_SOME].concat());
     folder.write("summary.json", summary.to_json().as_bytes())?;
     let response = &outcome.nominal.response;
     folder.write_with("history.csv", |to| history_csv(response, &mut Lines { to, written }))?;

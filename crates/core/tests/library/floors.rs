@@ -1,4 +1,4 @@
-//! Floor spectra in two horizontal directions.
+//! Floor spectra in two horizontal directions; floor spectra, profiles and histories over a suite.
 
 // Every test says how close it came. Helpers of tests may panic as tests do.
 #![allow(clippy::disallowed_macros, clippy::expect_used)]
@@ -7,10 +7,18 @@ use core::f64::consts::TAU;
 
 use crate::common::random_in_plane::{System, in_plane, libm_sin};
 use slipstick::assessment::floors::{FloorSpectra, PlaceSpectra, TABLED_PERIODS_S};
+use slipstick::assessment::histories::floors::FloorSpectrum;
+use slipstick::assessment::histories::{Histories, Kept, ModelOn, run_histories};
+use slipstick::assessment::single::{Job, Outcome};
+use slipstick::assessment::suite::{Scaling, Suite};
+use slipstick::input::loaded::Loaded;
+use slipstick::input::{self, Analysis};
 use slipstick::motion::GroundMotion;
 use slipstick::progress::UNWATCHED;
 use slipstick::response::Response;
 use slipstick::solver::exact;
+use slipstick::study::Record;
+use slipstick::study::engine::Engine;
 
 fn spectra(motion: &GroundMotion, response: &Response) -> FloorSpectra {
     let found = FloorSpectra::of(motion, response, UNWATCHED).expect("nothing stops it");
@@ -129,10 +137,13 @@ fn a_pair_along_x_has_the_spectra_of_one_direction() {
         let alone = spectra(&bare.expect("a motion"), &system.along_x());
         assert!(alone.axes.is_none());
         let [x, y] = pair.axes.as_ref().expect("two directions");
-        assert_eq!((x, &pair.periods_s), (&alone.sa, &alone.periods_s), "seed {seed}");
+        assert_eq!(pair.periods_s, alone.periods_s, "seed {seed}");
         assert!(y.places().flatten().all(|sa| *sa == 0.0), "seed {seed}");
-        for (pair, alone) in pair.sa.places().flatten().zip(alone.sa.places().flatten()) {
-            assert!((pair / alone - 1.0).abs() < 1e-12, "seed {seed}: {pair} {alone}");
+        // The oscillator goes in other steps, which is all that differs.
+        for found in [x, &pair.sa] {
+            for (found, alone) in found.places().flatten().zip(alone.sa.places().flatten()) {
+                assert!((found / alone - 1.0).abs() < 1e-12, "seed {seed}: {found} {alone}");
+            }
         }
     }
 }
@@ -156,4 +167,195 @@ fn prop_a_turned_pair_has_the_same_rotd100() {
         println!("seed {seed}: worst difference {worst:.1e}");
         assert!(worst < bound, "seed {seed}: {worst:.1e}");
     }
+}
+
+/// Two storeys with heights, and bounds of friction.
+const FRAME: &str = "[block]\nmass = \"10 t\"\n[slider]\nstatic_friction = 0.06\nkinetic_friction = 0.05\n\
+                     radius = \"2 m\"\nbounds = { lower = 0.8, upper = 1.3 }\n[frame]\nperiod = \"0.5 s\"\n\
+                     [[storey]]\nmass = \"5 t\"\nstiffness = \"1 kN/m\"\ndamping_ratio = 0.03\nheight = \"3 m\"\n\
+                     [[storey]]\nmass = \"4 t\"\nstiffness = \"1 kN/m\"\ndamping_ratio = 0.03\n\
+                     height = \"2.5 m\"\n[analysis]\ntail = \"1 s\"\n";
+
+const SCALE: f64 = 1.5;
+
+fn wave(i: u32, axis: u32) -> Vec<f64> {
+    let rates = [5.0 + f64::from(i + axis), 17.0 - 2.0 * f64::from(axis)];
+    let of = |t: f64| 2.5 * libm_sin(rates[0] * t) * libm_sin(rates[1] * t + 0.3 * f64::from(i));
+    (0..150).map(|k| of(0.02 * f64::from(k))).collect()
+}
+
+/// So many records, in two directions or in one.
+fn suite(records: u32, in_plane: bool) -> Suite {
+    let record = |i: u32| {
+        let motion = GroundMotion::evenly_spaced(0.02, wave(i, 0), None).expect("a motion");
+        let motion = if in_plane { motion.with_y(wave(i, 1)).expect("y") } else { motion };
+        Record::new(format!("r{i}"), motion)
+    };
+    Suite { records: (0..records).map(record).collect(), ..Suite::default() }
+}
+
+fn frame(in_plane: bool) -> Analysis {
+    let analysis = input::parse("m.toml", FRAME, &[]).expect("a model");
+    if in_plane { analysis.in_plane().expect("two directions") } else { analysis }
+}
+
+fn over(suite: &Suite, analysis: &Analysis, histories_of: &[&str]) -> Histories {
+    let on = ModelOn { name: "m", analysis, suite };
+    let kept = Kept { floor_spectra: true, histories_of };
+    run_histories(&[on], &Scaling::Factor(SCALE), kept, &Engine::unwatched()).expect("runs")
+}
+
+/// The run of a record by itself, with a bound of friction.
+fn alone(suite: &Suite, record: usize, analysis: &Analysis, bound: usize) -> Outcome {
+    let factors = analysis.friction_bounds.expect("bounds").all();
+    let mut analysis = analysis.clone();
+    analysis.model = factors[bound].of(&analysis.model);
+    analysis.friction_bounds = None;
+    let motion = suite.records[record].motion.scaled(SCALE).expect("a motion");
+    let job = Job::new(analysis, Loaded::made(motion, String::new())).expect("a job");
+    job.run(true).expect("an answer")
+}
+
+/// Of eight records and of three, in one direction and in two: mean, fractiles and largest are those of the spectra of
+/// single runs, with every bound, of every place and direction at every period.
+#[test]
+fn a_suites_floor_spectra_are_those_of_single_runs() {
+    for (records, in_plane) in [(8, false), (3, true)] {
+        let (suite, analysis) = (suite(records, in_plane), frame(in_plane));
+        let histories = over(&suite, &analysis, &[]);
+        let model = &histories.models[0];
+        assert_eq!(model.statistic(), if records == 8 { "mean" } else { "maximum" });
+        let single: Vec<Vec<FloorSpectra>> = (0..3)
+            .map(|bound| {
+                let of = |i: u32| alone(&suite, i as usize, &analysis, bound).floor_spectra;
+                (0..records).map(|i| of(i).expect("spectra")).collect()
+            })
+            .collect();
+        let all = model.floor_spectra();
+        // Ground, block and two floors.
+        assert_eq!(all.len(), 3 * 4 * if in_plane { 3 } else { 1 });
+        for (of, over) in &all {
+            let FloorSpectrum { bound, direction, place } = *of;
+            for (period, over) in over.iter().enumerate() {
+                let ordinate = |spectra: &FloorSpectra| {
+                    let sa = spectra.in_directions().nth(direction).expect("a direction");
+                    sa.places().nth(place).expect("a place")[period]
+                };
+                let mut values: Vec<f64> = single[bound].iter().map(ordinate).collect();
+                let mean = values.iter().sum::<f64>() / values.len() as f64;
+                assert!((over.mean / mean - 1.0).abs() < 1e-14, "{of:?} {period}");
+                values.sort_by(f64::total_cmp);
+                let last = values.len() - 1;
+                assert_eq!(over.largest, values[last]);
+                // The value at the place p (n − 1), straight between neighbours.
+                for (share, found) in [0.16, 0.5, 0.84].into_iter().zip(over.fractiles) {
+                    let at = share * last as f64;
+                    let (low, part) = (at as usize, at.fract());
+                    let high = values[(low + 1).min(last)];
+                    let expected = values[low] + part * (high - values[low]);
+                    assert!((found / expected - 1.0).abs() < 1e-14, "{of:?} {period} {share}");
+                }
+            }
+        }
+        // The bound with the largest ordinate of what governs.
+        let of = FloorSpectrum { place: 3, ..FloorSpectrum::default() };
+        let peak = |bound: usize| {
+            let over = model.floor_spectrum(FloorSpectrum { bound, ..of }).expect("a spectrum");
+            over.iter().map(|over| model.governing_of(over)).fold(0.0, f64::max)
+        };
+        let governs = model.floor_governs(of).expect("a bound");
+        assert!((0..3).all(|bound| peak(bound) <= peak(governs)));
+        let table = histories.floor_spectra.as_ref().expect("a table");
+        let periods = model.a_floor_spectrum().expect("spectra").periods_s.len();
+        assert_eq!(table.rows(), all.len() * periods);
+    }
+}
+
+/// Profiles are the mean of the demands of single runs, level by level, with the heights of the levels.
+#[test]
+fn profiles_are_those_of_single_runs() {
+    let (suite, analysis) = (suite(7, false), frame(false));
+    let histories = over(&suite, &analysis, &[]);
+    let model = &histories.models[0];
+    assert_eq!(model.levels_m.as_deref(), Some(&[0.0, 3.0, 5.5][..]));
+    for bound in 0..3 {
+        let single: Vec<_> =
+            (0..7).map(|i| alone(&suite, i, &analysis, bound).nominal.response.demands).collect();
+        let profiles = model.profiles(bound);
+        let keys: Vec<&str> = profiles.iter().map(|(profile, _)| profile.key).collect();
+        let expected = [
+            "peak_acceleration_m_per_s2",
+            "peak_displacement_m",
+            "peak_drift_m",
+            "peak_drift_ratio",
+        ];
+        assert_eq!(keys, expected);
+        for (profile, over) in &profiles {
+            let levels: Vec<usize> = profile.levels.iter().map(|(level, _)| *level).collect();
+            let from_block = profile.key == "peak_acceleration_m_per_s2";
+            assert_eq!(levels, if from_block { vec![0, 1, 2] } else { vec![1, 2] });
+            for (level, over) in levels.iter().zip(over) {
+                let value = |demands: &slipstick::response::Demands| {
+                    let Some(storey) = level.checked_sub(1).map(|i| &demands.storeys[i]) else {
+                        return demands.peak_block_acceleration_m_per_s2;
+                    };
+                    match profile.key {
+                        "peak_displacement_m" => storey.peak_displacement_m,
+                        "peak_drift_m" => storey.peak_drift_m,
+                        "peak_drift_ratio" => storey.peak_drift_ratio.expect("heights"),
+                        _ => storey.peak_acceleration_m_per_s2,
+                    }
+                };
+                let mean = single.iter().map(value).sum::<f64>() / 7.0;
+                assert!((over.mean / mean - 1.0).abs() < 1e-14, "{} {level}", profile.key);
+            }
+        }
+    }
+    // Bounds, levels of four demands.
+    assert_eq!(histories.profiles.as_ref().map(|table| table.rows()), Some(3 * (3 + 2 + 2 + 2)));
+}
+
+/// Of a pair whose components are run separately the larger ordinate counts.
+#[test]
+fn the_larger_component_of_a_separate_pair_counts() {
+    let mut pairs = suite(4, false);
+    for (i, record) in pairs.records.iter_mut().enumerate() {
+        record.pair = Some(i / 2);
+    }
+    let analysis = frame(false);
+    let histories = over(&pairs, &analysis, &[]);
+    let model = &histories.models[0];
+    let of = FloorSpectrum { bound: 1, direction: 0, place: 2 };
+    let over = model.floor_spectrum(of).expect("a spectrum");
+    let sa = |i: usize| model.records[i].floor_spectrum(of).expect("a spectrum");
+    for (period, over) in over.iter().enumerate() {
+        let larger = [0, 2].map(|i| sa(i)[period].max(sa(i + 1)[period]));
+        assert_eq!(over.mean, 0.5 * (larger[0] + larger[1]));
+    }
+}
+
+/// The histories of chosen records are those of their runs by themselves to the last bit, with every bound; of others
+/// none is kept, and a name that is none is refused.
+#[test]
+fn chosen_histories_are_those_of_single_runs() {
+    for in_plane in [false, true] {
+        let (suite, analysis) = (suite(3, in_plane), frame(in_plane));
+        let histories = over(&suite, &analysis, &["r2", "r0"]);
+        let chosen: Vec<[usize; 2]> =
+            histories.chosen.iter().map(|one| [one.record, one.bound]).collect();
+        assert_eq!(chosen, [[0, 0], [0, 1], [0, 2], [2, 0], [2, 1], [2, 2]]);
+        for one in &histories.chosen {
+            let expected = alone(&suite, one.record, &analysis, one.bound).nominal.response;
+            assert!(expected.history.is_some());
+            assert_eq!(one.response, expected);
+        }
+    }
+    let (suite, analysis) = (suite(3, false), frame(false));
+    let on = ModelOn { name: "m", analysis: &analysis, suite: &suite };
+    let kept = Kept { floor_spectra: false, histories_of: &["r4"] };
+    let refused = run_histories(&[on], &Scaling::Factor(1.0), kept, &Engine::unwatched());
+    let message = refused.expect_err("no such record").to_string();
+    let expected =
+        "history-of: expected the name of a record of the suite, such as r0, found \"r4\"";
+    assert!(message.starts_with(expected), "{message}");
 }

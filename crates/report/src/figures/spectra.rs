@@ -3,9 +3,9 @@
 use super::{Drawn, shown_note, shown_storeys};
 use crate::assessment::lines::{over_x, panel, stacked};
 use crate::display::Quantity;
-use crate::floors::{DIRECTIONS, in_directions, largest};
+use crate::floors::{DIRECTIONS, largest};
 use crate::markup::shortened;
-use crate::number::printed;
+use crate::number::compact;
 use crate::plot::{Axis, Panel, Series, Style};
 use slipstick::assessment::floors::{FloorSpectra, PlaceSpectra};
 
@@ -49,12 +49,11 @@ pub fn floors(report: &Report, spectra: &FloorSpectra) -> Option<Drawn> {
         series.push(line(names.block().to_lowercase(), block, &sa.block_m_per_s2));
         series
     };
-    let directions = in_directions(spectra);
-    let drawn: Vec<Vec<Series>> = directions.iter().map(|sa| series(sa)).collect();
+    let drawn: Vec<Vec<Series>> = spectra.in_directions().map(series).collect();
     let points = drawn.iter().flatten().flat_map(|series| &series.points);
     let values: Vec<f64> = points.map(|point| point[1]).collect();
     let y = Axis::from_zero(unit.label("Spectral acceleration"), values);
-    let in_plane = directions.len() > 1;
+    let in_plane = spectra.axes.is_some();
     let panels =
         drawn.into_iter().zip(DIRECTIONS).enumerate().map(|(i, (mut series, direction))| {
             if i > 0 {
@@ -73,7 +72,7 @@ pub fn floors(report: &Report, spectra: &FloorSpectra) -> Option<Drawn> {
     let caption = format!(
         "Floor response spectra: largest total acceleration of a light oscillator with {} % damping \
          fixed to the block or a {place}, over its period. For equipment, read its own period.{directions}{}",
-        printed(100.0 * spectra.damping_ratio, 2),
+        compact(100.0 * spectra.damping_ratio),
         shown_note(&shown, peaks.len(), names)
     );
     Some(stacked("floor-spectra", "Floor response spectra", caption, panels))
