@@ -18,6 +18,9 @@ use crate::number::compact;
 use crate::plot::{Axis, Panel, Series, Style};
 use crate::view;
 
+/// The line of the ground beside those of a place.
+const GROUND: Style = Style { colour: "#6b6b6b", width: 1.2, dashes: "8 3 2 3" };
+
 /// What is drawn of places and bounds of friction.
 struct Drawing<'a> {
     model: &'a ModelHistories,
@@ -53,11 +56,13 @@ impl HistoriesReport<'_> {
                 let is_first = rows.len() == first;
                 let name = if is_first { place_name(&model.names, place) } else { String::new() };
                 let mut row = vec![shortened(&name, 28)];
-                row.extend((bounds > 1).then(|| model.bounds[bound].name.to_owned()));
+                // The ground moves as it does, whatever the friction.
+                let friction = if place == 0 { "—" } else { model.bounds[bound].name };
+                row.extend((bounds > 1).then(|| friction.to_owned()));
                 row.extend(several.then(|| statistic.to_owned()));
                 rows.push(row.into_iter().chain(cells).collect());
             };
-            let of_bounds: Option<Vec<Vec<f64>>> = (0..bounds)
+            let of_bounds: Option<Vec<Vec<f64>>> = (0..if place == 0 { 1 } else { bounds })
                 .map(|bound| ordinates(FloorSpectrum { bound, ..of }, &|o| model.governing_of(o)))
                 .collect();
             let of_bounds = of_bounds?;
@@ -115,7 +120,9 @@ impl HistoriesReport<'_> {
         let drawn: Option<Vec<(usize, Vec<Series>)>> =
             places.map(|place| Some((place, drawing.series(place)?))).collect();
         let drawn = drawn?;
-        let points = drawn.iter().flat_map(|(_, series)| series).flat_map(|s| &s.points);
+        // That of the ground would flatten those of floors on sliders: it is cut where it is higher.
+        let above = drawn.iter().flat_map(|(_, series)| series).filter(|of| of.style != GROUND);
+        let points = above.flat_map(|series| &series.points);
         let direction = if one.axes.is_some() { ", RotD100" } else { "" };
         let label = format!("{}{direction}", drawing.unit.label("Spectral acceleration"));
         let y = Axis::from_zero(label, points.map(|point| point[1]).collect::<Vec<_>>());
@@ -139,8 +146,8 @@ impl HistoriesReport<'_> {
             None => "",
         };
         let caption = format!(
-            "Floor spectra at {} % damping: thin every record, grey 16 to 84 % of them, thick their {}, dotted that of \
-             the ground.{friction}{rotated}{}",
+            "Floor spectra at {} % damping: thin every record, grey 16 to 84 % of them, thick their {}, dashed and dotted \
+             that of the ground, cut where it is higher than all floors.{friction}{rotated}{}",
             compact(100.0 * one.damping_ratio),
             model.statistic(),
             shown_note(&shown, peaks.len(), &model.names)
@@ -221,7 +228,7 @@ impl Drawing<'_> {
             series.extend(records.map(|sa| self.line(String::new(), RECORD, sa)));
         }
         let ground = FloorSpectrum { place: 0, ..of };
-        series.push(self.line("ground".to_owned(), Style::DOTTED, &self.governing(ground)?));
+        series.push(self.line("ground".to_owned(), GROUND, &self.governing(ground)?));
         for ((bound, named), style) in model.bounds.iter().enumerate().zip(GROUPS) {
             let sa = self.governing(FloorSpectrum { bound, ..of })?;
             let label = match model.bounds.len() {
