@@ -16,6 +16,9 @@ pub struct OverSuite {
     pub largest: f64,
 }
 
+/// A statistic as a column: its name and its value.
+type StatisticColumn = (&'static str, fn(&OverSuite) -> f64);
+
 impl OverSuite {
     /// Those of the values of the earthquakes; none of nothing.
     fn of(sizes: &[f64]) -> Option<Self> {
@@ -26,7 +29,7 @@ impl OverSuite {
 
     /// The columns of some, a row each; `suffix` stands after their names, which are of a quantity with this unit.
     pub(super) fn add_columns(all: &[Self], table: &mut Table, suffix: &str, unit: &str) {
-        let columns: [(&str, fn(&Self) -> f64); 5] = [
+        let columns: [StatisticColumn; 5] = [
             ("mean", |over| over.mean),
             ("p16", |over| over.fractiles[0]),
             ("median", |over| over.fractiles[1]),

@@ -42,7 +42,8 @@ impl Profile {
                 let is_block =
                     column.demand.of == DemandOf::Run && Some(column.demand.key) == of_block;
                 let is_level = column.demand.of == of && column.demand.key == key;
-                (is_block || is_level).then(|| (if is_block { 0 } else { column.part }, *column))
+                let level = if is_block { 0 } else { column.part };
+                (is_block || is_level).then_some((level, *column))
             };
             let mut levels: Vec<_> = columns.iter().filter_map(of_level).collect();
             levels.sort_by_key(|(level, _)| *level);
