@@ -4,7 +4,7 @@ use crate::error::{MotionError, Stopped};
 use crate::input::Names;
 use crate::motion::intensity::SaInPlane;
 use crate::motion::{GroundMotion, spectrum};
-use crate::progress::GoOn;
+use crate::progress::Cancel;
 use crate::response::Response;
 
 /// Damping ratio of the oscillators.
@@ -54,7 +54,7 @@ impl FloorSpectra {
     pub fn of(
         motion: &GroundMotion,
         response: &Response,
-        go_on: GoOn<'_>,
+        go_on: Cancel<'_>,
     ) -> Result<Option<Self>, Stopped> {
         let Some(x) = &response.history else { return Ok(None) };
         let plane = response.in_plane.as_ref();
@@ -144,7 +144,7 @@ struct Shaken<'a> {
 
 impl Shaken<'_> {
     /// The spectra of each place, in one direction along x alone; empty where the history is too short for one.
-    fn sa(&self, periods_s: &[f64], go_on: GoOn<'_>) -> Result<Vec<SaInPlane>, Stopped> {
+    fn sa(&self, periods_s: &[f64], go_on: Cancel<'_>) -> Result<Vec<SaInPlane>, Stopped> {
         let mut all = vec![SaInPlane::default(); self.x.len()];
         let samples = self.times_s.len() * self.y.as_ref().map_or(1, Vec::len);
         let together = if samples < LONG_HISTORY { periods_s.len() } else { 1 };
@@ -183,6 +183,6 @@ impl Shaken<'_> {
 }
 
 /// Asks whether to go on.
-fn asked(go_on: GoOn<'_>) -> Result<(), Stopped> {
+fn asked(go_on: Cancel<'_>) -> Result<(), Stopped> {
     if go_on().is_break() { Err(Stopped) } else { Ok(()) }
 }

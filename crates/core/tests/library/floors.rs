@@ -14,14 +14,14 @@ use slipstick::assessment::suite::{Scaling, Suite};
 use slipstick::input::loaded::Loaded;
 use slipstick::input::{self, Analysis};
 use slipstick::motion::GroundMotion;
-use slipstick::progress::UNWATCHED;
+use slipstick::progress::NEVER_CANCELLED;
 use slipstick::response::Response;
 use slipstick::solver::exact;
 use slipstick::study::Record;
 use slipstick::study::engine::Engine;
 
 fn spectra(motion: &GroundMotion, response: &Response) -> FloorSpectra {
-    let found = FloorSpectra::of(motion, response, UNWATCHED).expect("nothing stops it");
+    let found = FloorSpectra::of(motion, response, NEVER_CANCELLED).expect("nothing stops it");
     found.expect("a history")
 }
 

@@ -6,7 +6,7 @@ use crate::display::Quantity;
 use crate::floors::{DIRECTIONS, largest};
 use crate::markup::shortened;
 use crate::number::compact;
-use crate::plot::{Axis, Panel, Series, Style};
+use crate::plot::{Axis, Panel, PlotSeries, Style};
 use slipstick::assessment::floors::{FloorSpectra, PlaceSpectra};
 
 use crate::report::Report;
@@ -41,7 +41,7 @@ pub fn floors(report: &Report, spectra: &FloorSpectra) -> Option<Drawn> {
         let storeys = shown.iter().zip(storey_styles).map(|(&i, style)| {
             line(names.point(i + 1).to_lowercase(), style, &sa.storeys_m_per_s2[i])
         });
-        let mut series: Vec<Series> = storeys.collect();
+        let mut series: Vec<PlotSeries> = storeys.collect();
         if !sa.table_m_per_s2.is_empty() {
             series.push(line("ground".to_owned(), Style::DOTTED, &sa.table_m_per_s2));
         }
@@ -49,7 +49,7 @@ pub fn floors(report: &Report, spectra: &FloorSpectra) -> Option<Drawn> {
         series.push(line(names.block().to_lowercase(), block, &sa.block_m_per_s2));
         series
     };
-    let drawn: Vec<Vec<Series>> = spectra.in_directions().map(series).collect();
+    let drawn: Vec<Vec<PlotSeries>> = spectra.in_directions().map(series).collect();
     let points = drawn.iter().flatten().flat_map(|series| &series.points);
     let values: Vec<f64> = points.map(|point| point[1]).collect();
     let y = Axis::from_zero(unit.label("Spectral acceleration"), values);

@@ -8,14 +8,14 @@ use slipstick::assessment::histories::over_suite::OverSuite;
 
 use super::HistoriesReport;
 use crate::assessment::lines::{BAND, GROUPS, RECORD, band, over_x, panel, stacked};
-use crate::assessment::sheet::Table;
+use crate::assessment::sheet::SheetTable;
 use crate::display::{Quantity, Unit};
 use crate::figures::{Drawn, shown_note, shown_storeys};
 use crate::floors::{heading, heads, largest, ordinates, shown_ordinates};
 use crate::json::each;
 use crate::markup::shortened;
 use crate::number::compact;
-use crate::plot::{Axis, Panel, Series, Style};
+use crate::plot::{Axis, Panel, PlotSeries, Style};
 use crate::view;
 
 /// The line of the ground beside those of a place.
@@ -31,11 +31,11 @@ struct Drawing<'a> {
 impl HistoriesReport<'_> {
     /// The spectra of each model at round periods: of every place what governs with each bound of friction, then the
     /// other statistics with the bound that gives the largest ordinate.
-    pub(super) fn floor_tables(&self) -> Vec<Table> {
+    pub(super) fn floor_tables(&self) -> Vec<SheetTable> {
         self.histories.models.iter().filter_map(|model| self.floor_table(model)).collect()
     }
 
-    fn floor_table(&self, model: &ModelHistories) -> Option<Table> {
+    fn floor_table(&self, model: &ModelHistories) -> Option<SheetTable> {
         let one = model.a_floor_spectrum()?;
         let unit = self.floor_unit(model);
         let bounds = model.bounds.len();
@@ -117,7 +117,7 @@ impl HistoriesReport<'_> {
         let peaks = peaks?;
         let shown = shown_storeys(&peaks);
         let places = core::iter::once(1).chain(shown.iter().map(|storey| storey + 2));
-        let drawn: Option<Vec<(usize, Vec<Series>)>> =
+        let drawn: Option<Vec<(usize, Vec<PlotSeries>)>> =
             places.map(|place| Some((place, drawing.series(place)?))).collect();
         let drawn = drawn?;
         // That of the ground would flatten those of floors on sliders: it is cut where it is higher.
@@ -207,13 +207,13 @@ impl Drawing<'_> {
         self.governing(FloorSpectrum { bound, ..of }).map(|sa| largest(&sa))
     }
 
-    fn line(&self, label: String, style: Style, sa: &[f64]) -> Series {
+    fn line(&self, label: String, style: Style, sa: &[f64]) -> PlotSeries {
         let points = self.periods_s.iter().zip(sa).map(|(t, sa)| [*t, self.unit.of(*sa)]);
         over_x(label, style, points.collect())
     }
 
     /// The lines of a place, those of single records lowest.
-    fn series(&self, place: usize) -> Option<Vec<Series>> {
+    fn series(&self, place: usize) -> Option<Vec<PlotSeries>> {
         let model = self.model;
         let of = FloorSpectrum { place, ..FloorSpectrum::default() };
         let governs = FloorSpectrum { bound: model.floor_governs(of)?, ..of };

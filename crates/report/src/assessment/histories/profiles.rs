@@ -11,13 +11,13 @@ use slipstick::response::DemandColumn;
 use super::HistoriesReport;
 use super::floors::numbered_id;
 use crate::assessment::lines::{BAND, GROUPS, RECORD, laid, line, panel};
-use crate::assessment::sheet::{Table, cell};
+use crate::assessment::sheet::{SheetTable, cell};
 use crate::display::{Quantity, Unit};
 use crate::figures::Drawn;
 use crate::json::each;
 use crate::markup::shortened;
 use crate::number::compact;
-use crate::plot::{Axis, Layout, Panel, Series, Shape, Style};
+use crate::plot::{Axis, Layout, Panel, PlotSeries, Shape, Style};
 use crate::view;
 
 /// Levels from which on names would crowd an axis: numbers stand at some of them.
@@ -54,8 +54,8 @@ impl HistoriesReport<'_> {
     }
 
     /// A table a profile, the top first.
-    pub(super) fn profile_tables(&self) -> Vec<Table> {
-        let of = |model: &ModelHistories| -> Vec<Table> {
+    pub(super) fn profile_tables(&self) -> Vec<SheetTable> {
+        let of = |model: &ModelHistories| -> Vec<SheetTable> {
             let each = self.profiles(model).into_iter();
             each.map(|of| (self.of_model(&of.heading(), model), of.rows())).collect()
         };
@@ -220,7 +220,7 @@ impl Profiles<'_> {
         block.into_iter().chain(rest).collect()
     }
 
-    fn series(&self) -> Vec<Series> {
+    fn series(&self) -> Vec<PlotSeries> {
         let model = self.model;
         let nominal = model.bounds.iter().position(|bound| *bound == Bound::NOMINAL);
         let nominal = nominal.unwrap_or_default();
@@ -229,7 +229,7 @@ impl Profiles<'_> {
             let fractile = |i: usize| self.points(|place| self.over[nominal][place].fractiles[i]);
             let points = fractile(0).into_iter().chain(fractile(2).into_iter().rev()).collect();
             let (label, style) = ("16 to 84 %".to_owned(), Style::MAIN);
-            series.push(Series { label, style, shape: Shape::Band(BAND), points });
+            series.push(PlotSeries { label, style, shape: Shape::Band(BAND), points });
             let size =
                 |on: &OnRecord, place: usize| on.size(&self.profile.levels[place].1, nominal);
             let records = model.records.iter().filter(|on| !on.is_unconfirmed());
