@@ -43,7 +43,7 @@ Examples:
   slipstick run tank.toml --set slider.kinetic_friction=0.05 --set storey.1.mass=\"90 kg\"
   slipstick run tank.toml --set analysis.tail=\"5 s\" --display-units kN-mm
   slipstick run - --json < tank.toml
-  slipstick run tank.toml --records 'suite/*.AT2' --scale-to \"0.4 g\" --out out
+  slipstick run tank.toml --records 'suite/*.AT2' --scale-to \"0.4 g\" --floor-spectrum --out out
   slipstick run tank.toml --records 'x/*.AT2' --second 'y/*.AT2' --periods \"0.6 s..3.8 s\" \\
       --code-spectrum \"sds = 1.2 g, sd1 = 0.8 g, tl = 8 s\" --hazard MCE_R --out out
   slipstick run flat.toml pendulum.toml --records suite --measure \"Sa(1.2 s)\" --scale-to \"0.5 g\"
@@ -58,7 +58,9 @@ Writes with --out, complete files only, never a part of one:
   events.csv    every slip, stick and reversal
   report.html   one self-contained page, ready to print
 Of several records or models runs.csv and governing.csv (with the bounds of friction, their mean
-over seven records or more, else the maximum), figures (SVG), summary.json and report.html.";
+over seven records or more, else the maximum), profiles.csv (demands over the height, of two storeys
+and more), floor-spectra.csv with --floor-spectrum, a history a record with --history-of, figures
+(SVG), summary.json and report.html.";
 
 const STUDY_EXAMPLES: &str = "\
 Examples:

@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use slipstick::requests::Answer;
+use slipstick::response::Response;
 use slipstick::table::Table;
-use slipstick_files::{InputFiles, OutputFolder, to_csv, to_parquet};
+use slipstick_files::{InputFiles, OutputFolder, history_csv, to_csv, to_parquet};
 use slipstick_report::assessment::{Sheet, answer};
 use slipstick_report::report;
 
@@ -17,6 +18,17 @@ pub fn folder(args: &ResultArgs, inputs: &[PathBuf]) -> Result<Option<OutputFold
     Ok(args.out.as_deref().map(|out| OutputFolder::create(out, inputs)).transpose()?)
 }
 
+/// Files that only some answers have: those of another would be stale beside a new summary.
+pub const OF_SOME: [&str; 7] = [
+    "history.csv",
+    "events.csv",
+    "floor-spectra.csv",
+    "floor-spectra.parquet",
+    "floor-spectra.svg",
+    "profiles.csv",
+    "profiles.svg",
+];
+
 /// Where a result is written.
 pub struct Written<'a> {
     /// The folder, if any.
@@ -25,14 +37,16 @@ pub struct Written<'a> {
     pub json: &'a str,
     /// Further files: names and texts.
     pub more: &'a [(&'static str, String)],
-    /// Files of other results, which would be stale beside these.
+    /// Histories by the names of their files.
+    pub histories: &'a [(String, Response)],
+    /// Files of other results, which would be stale beside these where they are not written anew.
     pub replaces: &'a [&'static str],
 }
 
 impl Written<'_> {
     /// The usual files.
     pub fn usual(folder: Option<OutputFolder>) -> Self {
-        Self { folder, json: "summary.json", more: &[], replaces: &["history.csv", "events.csv"] }
+        Self { folder, json: "summary.json", more: &[], histories: &[], replaces: &OF_SOME }
     }
 }
 
@@ -44,7 +58,7 @@ pub fn conclude(
     tables: &[(&str, &Table)],
     inputs: &InputFiles,
 ) -> Result<ExitCode, Failure> {
-    let Written { folder, json, more, replaces } = written;
+    let Written { folder, json, more, histories, replaces } = written;
     if let Some(mut folder) = folder {
         folder.replaces(replaces);
         for (name, table) in tables {
@@ -58,6 +72,9 @@ pub fn conclude(
         }
         folder.write(json, sheet.to_json().as_bytes())?;
         folder.write("report.html", inputs.page(sheet, &command_line()).as_bytes())?;
+        for (name, response) in histories {
+            folder.write_with(name, |to| history_csv(response, to))?;
+        }
         for (name, text) in more {
             folder.write(name, text.as_bytes())?;
         }
@@ -90,6 +107,8 @@ pub fn emit(
     inputs: &InputFiles,
 ) -> Result<ExitCode, Failure> {
     let sheet = answer::sheet(&answer, args.display_units);
+    let mut answer = answer;
+    let histories = answer::histories(&mut answer);
     let tables = answer::tables(answer);
     let files: Vec<(String, &Table)> = tables
         .iter()
@@ -99,7 +118,13 @@ pub fn emit(
         .collect();
     let files: Vec<(&str, &Table)> =
         files.iter().map(|(name, table)| (&name[..], *table)).collect();
-    conclude(args, Written::usual(folder), &sheet, &files, inputs)
+    conclude(
+        args,
+        Written { histories: &histories, ..Written::usual(folder) },
+        &sheet,
+        &files,
+        inputs,
+    )
 }
 
 /// The command as it was typed, with quotes where the shell needs them.

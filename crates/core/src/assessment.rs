@@ -10,6 +10,7 @@ pub mod censored;
 pub mod code;
 pub mod derivative;
 pub mod design;
+pub mod floors;
 pub mod fragility;
 pub mod grid;
 pub mod histories;

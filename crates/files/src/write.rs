@@ -268,7 +268,7 @@ impl OutputFolder {
     }
 
     /// Names of what another analysis may have written here: with its summary replaced they would be taken
-    /// for results of this one. They are removed where a summary stood, never an input.
+    /// for results of this one. They are removed where a summary stood, never an input and never a file of this set.
     pub fn replaces(&mut self, names: &[&str]) {
         if !self.path("summary.json").is_file() {
             return;
@@ -284,10 +284,11 @@ impl OutputFolder {
     /// [`FileError::Write`] where a rename fails; each file is whole or as it was before.
     pub fn commit(mut self) -> Result<(), FileError> {
         let mut live = live();
+        let written: Vec<PathBuf> = self.files.iter().map(|file| file.target.clone()).collect();
         let mut files = std::mem::take(&mut self.files).into_iter();
         let renamed = files.try_for_each(|file| file.rename(&mut live));
         if renamed.is_ok() {
-            for path in &self.stale {
+            for path in self.stale.iter().filter(|path| !written.contains(path)) {
                 let _ = fs::remove_file(path);
             }
             for folder in self.made.drain(..) {

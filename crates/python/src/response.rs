@@ -35,17 +35,9 @@ pub(crate) fn run(
     check: bool,
 ) -> PyResult<Response> {
     let own = model.get().analysis.motion.as_ref();
-    let in_plane = match motion {
-        None => own.is_some_and(|source| source.key_of_y().is_some()),
-        Some(motion) => motion.get().0.motion.horizontal_y_m_per_s2().is_some(),
-    };
     if motion.is_none() && own.is_none() {
         let expected = "a motion, for the model has none of its own";
         return Err(of_argument(py, "motion", expected, "none"));
-    }
-    if floor_spectrum && in_plane {
-        let expected = "False with a motion in two directions";
-        return Err(of_argument(py, "floor_spectrum", expected, "True"));
     }
     if floor_spectrum && !(history && check) {
         let expected = "False without a history and its check";

@@ -269,3 +269,22 @@ def test_a_structure_by_its_modes_is_drawn_by_the_names_of_its_points() -> None:
     response = ss.run(ss.Model.read(EXAMPLES / "structures" / "building.toml"))
     assert [line.get_label() for line in response.plot.drift().lines] == ["First", "Second", "Roof"]
     assert [line.get_label() for line in response.plot.acceleration().lines] == ["table", "block", "Roof"]
+
+
+def test_floor_spectra_of_a_pair() -> None:
+    pytest.importorskip("matplotlib").use("Agg")
+    motion = next(iter(pairs().values()))
+    response = ss.run(model(), motion, floor_spectrum=True)
+    spectra = response.summary["floor_spectrum"]
+    for key in ["table_acceleration_m_per_s2", "block_acceleration_m_per_s2"]:
+        x, y = (np.asarray(spectra[axis][key]) for axis in "xy")
+        largest = np.asarray(spectra[key])
+        assert (largest >= np.maximum(x, y)).all() and (largest <= np.hypot(x, y)).all()
+    drawn = response.plot.floor_spectra()
+    assert drawn.get_ylabel() == "spectral acceleration RotD100 [g]"
+    assert list(drawn.lines[1].get_ydata()) == [a / 9.80665 for a in spectra["block_acceleration_m_per_s2"]]
+    drawn = response.plot.floor_spectra(along="y")
+    assert drawn.get_ylabel() == "spectral acceleration along y [g]"
+    assert list(drawn.lines[1].get_ydata()) == [a / 9.80665 for a in spectra["y"]["block_acceleration_m_per_s2"]]
+    with pytest.raises(ValueError, match="along: expected one of x, y, found 'both'"):
+        response.plot.floor_spectra(along="both")

@@ -49,9 +49,10 @@ pub fn all(report: &Report) -> Vec<Drawn> {
     let Some(history) = history else { return Vec::new() };
     let scene = Scene::new(report, history);
     let along_y = report.response.in_plane.as_ref().and_then(|plane| plane.history.as_ref());
+    let floor_spectra = report.floor_spectra.and_then(|spectra| spectra::floors(report, spectra));
     if let Some(along_y) = along_y {
         let mut figures = plane::all(&scene, along_y);
-        figures.extend(energy::by_kind(&scene));
+        figures.extend(floor_spectra.into_iter().chain(energy::by_kind(&scene)));
         return figures;
     }
     [
@@ -62,7 +63,7 @@ pub fn all(report: &Report) -> Vec<Drawn> {
         devices::surfaces(&scene),
         devices::contents(&scene),
         devices::friction_by_speed(&scene),
-        report.floor_spectra.and_then(|spectra| spectra::floors(report, spectra)),
+        floor_spectra,
         force::demand(&scene),
         energy::by_kind(&scene),
     ]
@@ -114,7 +115,7 @@ fn sliding_intervals(history: &History) -> Vec<[f64; 2]> {
 
 /// Storeys worth a panel, as indices: all of three, else the lowest, the one with the largest
 /// value and the roof.
-fn shown_storeys(values: &[f64]) -> Vec<usize> {
+pub(crate) fn shown_storeys(values: &[f64]) -> Vec<usize> {
     let n = values.len();
     if n <= 3 {
         return (0..n).collect();
@@ -135,7 +136,7 @@ fn drifts_title(names: &Names) -> &'static str {
 }
 
 /// ` Storeys 1, 4 and 8 of 8 are drawn.`, points by their names, or nothing where all are.
-fn shown_note(shown: &[usize], n: usize, names: &Names) -> String {
+pub(crate) fn shown_note(shown: &[usize], n: usize, names: &Names) -> String {
     match shown {
         [a, b, c] if n > 3 && !names.points.is_empty() => {
             let [a, b, c] = [a, b, c].map(|i| names.point(i + 1));

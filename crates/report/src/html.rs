@@ -24,6 +24,7 @@ pub fn sheet(report: &Report) -> Sheet {
     figure_list(&mut body, answers, 1);
     results::peaks(&mut body, report);
     figure_section(&mut body, "Accelerations, spectra, energy", others, answers.len() + 1);
+    results::floor_spectra(&mut body, report);
     results::certificate(&mut body, report);
     inputs::assumptions(&mut body, report);
     inputs::section(&mut appendix, report);

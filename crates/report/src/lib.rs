@@ -44,6 +44,7 @@ pub mod describe;
 pub mod display;
 pub mod examples;
 pub mod figures;
+pub(crate) mod floors;
 pub mod html;
 pub mod json;
 pub mod laboratory;

@@ -1,6 +1,6 @@
 //! What a report is made from.
 
-use slipstick::assessment::single::FloorSpectra;
+use slipstick::assessment::floors::FloorSpectra;
 use slipstick::check::Certificate;
 use slipstick::model::Model;
 use slipstick::motion::GroundMotion;

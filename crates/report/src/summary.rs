@@ -3,7 +3,8 @@
 pub(crate) mod keys;
 mod warnings;
 
-use slipstick::assessment::single::{FloorSpectra, Job, Judged, Outcome, Solved};
+use slipstick::assessment::floors::FloorSpectra;
+use slipstick::assessment::single::{Job, Judged, Outcome, Solved};
 use slipstick::check::{Certificate, ClosestCall};
 use slipstick::input::Names;
 use slipstick::model::Model;

@@ -8,6 +8,8 @@ use slipstick::response::Method;
 
 use crate::describe::{model_line, value};
 use crate::display::{DisplayUnits, Quantity};
+use crate::floors;
+use crate::laboratory::text::aligned;
 use crate::markup::shortened;
 use crate::number::{compact, rounded, significant};
 use crate::peaks::{self, Row};
@@ -40,6 +42,13 @@ pub fn table(summary: &Summary, model: &Model, record: &str, display: DisplayUni
     rows.extend(peaks::count_rows(summary));
     rows.extend(check_rows(summary));
     grid(&mut out, summary, &rows);
+    let spectra = summary.floor_spectra.as_ref();
+    let spectra = spectra.and_then(|spectra| floors::table(spectra, &summary.names, display));
+    if let Some((heading, rows)) = spectra {
+        out.line("");
+        out.line(&heading);
+        aligned(&rows).lines().for_each(|line| out.line(line));
+    }
     out.line("");
     verdict(&mut out, summary);
     let warnings = summary.all_warnings();

@@ -21,6 +21,11 @@ impl<const KIND: usize> Fields<KIND> {
         Request::new(Kind::ALL[KIND], self.0.iter().cloned())
     }
 
+    /// Whether a field is given.
+    pub fn has(&self, name: &str) -> bool {
+        self.0.iter().any(|(given, _)| *given == name)
+    }
+
     /// Refuses what is given and is no field of another request that is made instead; `expected` is what would
     /// make it one.
     pub fn none_beside(&self, other: Kind, expected: &str) -> Result<(), Failure> {

@@ -45,7 +45,8 @@ pub fn compare(args: &CompareArgs) -> Result<ExitCode, Failure> {
         within: &within,
         display: args.result.display_units,
     };
-    let written = Written { folder, json: "comparison.json", more: &[], replaces: &[] };
+    let written =
+        Written { folder, json: "comparison.json", more: &[], histories: &[], replaces: &[] };
     let status = conclude(&args.result, written, &report.sheet(), &[], &inputs)?;
     for bound in report.missed() {
         say(format_args!("missed: {}", bound.name()));

@@ -17,6 +17,10 @@ use crate::results::{emit, folder};
 pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
     args.one.none_beside(Kind::Suite, "one model and one record beside it")?;
     let asked = args.suite.asked()?;
+    if args.suite.has("history-of") && args.on.result.out.is_none() {
+        let message = "--history-of: expected a folder for the history beside it, --out <DIR>";
+        return Err(Failure::Message(message.to_owned()));
+    }
     let target = args.target.as_deref().map(|path| {
         let (spectrum, sha256) = read_target(path).map_err(|found| {
             Failure::Message(format!("--target: expected {TARGET}, found {found}"))

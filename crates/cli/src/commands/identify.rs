@@ -144,6 +144,7 @@ fn finish(
 ) -> Result<ExitCode, Failure> {
     let sheet = identify::sheet(measured, identified, args.display_units);
     let more = identified.files();
-    let written = Written { folder, json: "identified.json", more: &more, replaces: &[] };
+    let written =
+        Written { folder, json: "identified.json", more: &more, histories: &[], replaces: &[] };
     conclude(args, written, &sheet, &[], inputs)
 }

@@ -19,7 +19,7 @@ use crate::args::{RunArgs, quantity};
 use crate::failure::{Failure, print, say};
 use crate::model_file::{ModelFile, read_model, tell_replaced};
 use crate::progress::{Lines, TRIAL, estimated, reading, writing};
-use crate::results::{command_line, folder};
+use crate::results::{OF_SOME, command_line, folder};
 
 /// Runs one analysis, prints it and writes its files.
 pub fn run(args: &RunArgs) -> Result<ExitCode, Failure> {
@@ -51,10 +51,6 @@ fn one(args: &RunArgs, model: &Path) -> Result<ExitCode, Failure> {
     let piece = |bytes: &[u8]| drop(record::read("", bytes, &record::Options::default()));
     let open = || OpenJob::new(&model.path, analysis, record.as_ref());
     let job = reading(file.as_deref(), args.on.result.quiet, &piece, open).map_err(in_model)?;
-    if asked.floor_spectrum && job.job.motion.horizontal_y_m_per_s2().is_some() {
-        let message = "--floor-spectrum: expected a motion in one direction, found one in two";
-        return Err(Failure::Message(message.to_owned()));
-    }
     if let Some(stiffness) = &args.to_opensees {
         print(&opensees_script(&model, &job.job, stiffness)?)?;
         return Ok(ExitCode::SUCCESS);
@@ -180,7 +176,8 @@ fn write_files(
         command_line: &command_line,
         display: args.on.result.display_units,
     };
-    folder.replaces(&["runs.csv", "governing.csv", "histories.svg", "shares.svg"]);
+    let of_suites = ["runs.csv", "governing.csv", "histories.svg", "shares.svg"];
+    folder.replaces(&[&of_suites[..], &OF_SOME].concat());
     folder.write("summary.json", summary.to_json().as_bytes())?;
     let response = &outcome.nominal.response;
     folder.write_with("history.csv", |to| history_csv(response, &mut Lines { to, written }))?;

@@ -280,8 +280,10 @@ fn strs(all: &[String]) -> Vec<&str> {
 fn what_a_suite_cannot_be_asked() {
     let folder = folder("histories-refused", 1);
     for (options, expected) in [
-        (["--floor-spectrum"].as_slice(), "expected one model and one record"),
-        (&["--method", "stepwise"], "--method: expected one model and one record beside it"),
+        (
+            ["--method", "stepwise"].as_slice(),
+            "--method: expected one model and one record beside it",
+        ),
         (&["--measure", "PGV"], "--measure: expected --scale-to beside it, found \"PGV\""),
         (
             &["--scale", "2", "--scale-to", "1 g"],
@@ -289,6 +291,11 @@ fn what_a_suite_cannot_be_asked() {
         ),
         (&["--scale-to", "fast"], "--scale-to"),
         (&["--scale", "x"], "--scale: expected a factor"),
+        (&["--history-of", "r0"], "--history-of: expected a folder for the history beside it"),
+        (
+            &["--history-of", "r9", "--out", "out"],
+            "--history-of: expected the name of a record of the suite, such as r0, found \"r9\"",
+        ),
     ] {
         let run = ["run", "model.toml", "--records", "records/*.csv"];
         let refused = folder.refused(&[&run[..], options].concat());
@@ -297,6 +304,89 @@ fn what_a_suite_cannot_be_asked() {
     let alone = ["run", "model.toml", "--motion", "records/r0.csv", "--scale-to", "0.3 g"];
     let refused = folder.refused(&[&alone[..], &["--measure", "PGV"]].concat());
     assert!(refused.contains("--measure: expected a suite"), "{refused}");
+}
+
+/// With floor spectra a suite has tables, figures and keys of them; with two storeys profiles besides.
+#[test]
+fn floor_spectra_and_profiles_of_a_suite() {
+    let folder = folder("histories-floors", 7);
+    let storey = MODEL
+        .split_once("[[storey]]")
+        .unwrap()
+        .1
+        .replace("frequency = \"2 Hz\"", "stiffness = \"30 kN/m\"");
+    let (rest, _) = MODEL.split_once("[[storey]]").unwrap();
+    folder.write("frame.toml", format!("{rest}[[storey]]{storey}[[storey]]{storey}"));
+    let run = ["run", "frame.toml", "--records", "records", "--floor-spectrum"];
+    let text = folder.stdout(&[&run[..], &["--out", "out"]].concat());
+    for said in [
+        "Floor spectra at 5 % damping (m/s²)",
+        "Peak acceleration over the height, mean (m/s²)",
+        "Peak drift over the height, mean",
+        "84 %",
+    ] {
+        assert!(text.contains(said), "{said}: {text}");
+    }
+    let spectra = folder.read("out/floor-spectra.csv");
+    // Bounds, ground, block and two storeys, periods.
+    let rows = spectra.lines().count() - 1;
+    let periods = rows / (3 * 4);
+    assert!(rows == 3 * 4 * periods && periods > 100, "{rows}");
+    let mean: Vec<f64> =
+        column(&spectra, "mean_m_per_s2").iter().map(|cell| cell.parse().unwrap()).collect();
+    let json: serde_json::Value = serde_json::from_str(&folder.read("out/summary.json")).unwrap();
+    let first = &json["floor_spectrum"]["spectra"][0];
+    assert_eq!((&first["friction"], &first["place"]), (&"lower".into(), &"Ground".into()));
+    assert_eq!(first["mean_m_per_s2"][3].as_f64(), Some(mean[3]));
+    assert_eq!(json["floor_spectrum"]["period_s"].as_array().unwrap().len(), periods);
+    let governs = json["floor_spectrum"]["spectra"].as_array().unwrap().iter();
+    assert_eq!(governs.filter(|one| one["governs"] == true).count(), 4);
+    // Three bounds of three demands; there are no heights.
+    assert_eq!(json["profiles"].as_array().unwrap().len(), 9);
+    assert_eq!(column(&folder.read("out/profiles.csv"), "level")[..3], ["0.0", "1.0", "2.0"]);
+    let page = folder.read("out/report.html");
+    for id in ["floor-spectra", "profiles"] {
+        assert!(page.contains(&format!("id=\"{id}\"")), "{id}");
+        assert!(folder.read(&format!("out/{id}.svg")).starts_with("<svg"), "{id}");
+    }
+    // Unasked there are none, and those of another run do not stay.
+    let text = folder.stdout(&["run", "plain.toml", "--records", "records", "--out", "out"]);
+    assert!(!text.contains("Floor spectra") && !text.contains("over the height"), "{text}");
+    let names = folder.names("out");
+    assert!(
+        !names.iter().any(|name| name.contains("floor") || name.contains("profile")),
+        "{names:?}"
+    );
+    // Pairs have directions.
+    let pair = ["--records", "records/r0.csv", "--second", "records/r1.csv", "--floor-spectrum"];
+    let text = folder.stdout(&[&["run", "plain.toml", "--out", "pair"][..], &pair].concat());
+    assert!(text.contains("Floor spectra at 5 % damping, RotD100 (m/s²)"), "{text}");
+    let directions = column(&folder.read("pair/floor-spectra.csv"), "direction");
+    assert_eq!(
+        [&directions[0], &directions[periods], &directions[2 * periods]],
+        ["rotd100", "x", "y"]
+    );
+}
+
+/// The history of a record of a suite is the file that its run by itself writes.
+#[test]
+fn a_history_of_a_suite_is_that_of_a_single_run() {
+    let folder = folder("histories-of", 3);
+    let one = ["--motion", "records/r1.csv", "--scale", "2", "--out", "one"];
+    folder.stdout(&[&["run", "plain.toml"][..], &one].concat());
+    let of = ["--records", "records", "--scale", "2", "--history-of", "r1", "--out", "suite"];
+    folder.stdout(&[&["run", "plain.toml"][..], &of].concat());
+    assert_eq!(folder.read("suite/history-r1.csv"), folder.read("one/history.csv"));
+    // With bounds of friction each has its file, and those of several models.
+    folder.stdout(&[&["run", "model.toml", "plain.toml"][..], &of].concat());
+    let names: Vec<String> =
+        folder.names("suite").into_iter().filter(|name| name.contains("history")).collect();
+    let expected = ["model-lower", "model-nominal", "model-upper", "plain"];
+    let expected = expected.map(|which| format!("history-r1-{which}.csv"));
+    assert!(expected.iter().all(|name| names.contains(name)), "{names:?}");
+    assert_eq!(folder.read("suite/history-r1-plain.csv"), folder.read("one/history.csv"));
+    let refused = folder.refused(&["run", "plain.toml", "--history-of", "r1"]);
+    assert!(refused.contains("--history-of: expected a suite beside it"), "{refused}");
 }
 
 /// Of several models each column is of one bound of friction, and the statistic below is that of the column.

@@ -171,6 +171,43 @@ fn floor_spectra_stand_beside() {
     assert_eq!(spectrum["storeys_acceleration_m_per_s2"], serde_json::json!([]));
 }
 
+/// In two directions the keys are those of one, of RotD100, and again along x and along y; table and page show them.
+#[test]
+fn floor_spectra_of_a_pair_stand_by_axis() {
+    let storey = "[[storey]]\nmass = \"50 kg\"\nstiffness = \"20 kN/m\"\ndamping_ratio = 0.03\n";
+    let model = format!(
+        "[block]\nmass = \"100 kg\"\n[slider]\nstatic_friction = 0.1\nkinetic_friction = 0.1\n\
+         radius = \"2 m\"\n{storey}{storey}[motion]\nrecord = \"x.csv\"\nrecord_y = \"y.csv\"\n"
+    );
+    let folder = Folder::with_model("json-spectra-pair", &model);
+    for (name, peaks) in [("x.csv", [3.0, -4.0]), ("y.csv", [-2.0, 5.0])] {
+        let [first, second] = peaks;
+        let record = format!("0,0\n0.2,{first}\n0.5,{second}\n0.9,{first}\n1.4,0\n3,0\n");
+        folder.write(name, format!("time_s,acceleration_m_per_s2\n{record}"));
+    }
+    let asked = ["model.toml", "--floor-spectrum"];
+    let json = folder.json(&asked);
+    let spectrum = &json["floor_spectrum"];
+    let floors = |of: &serde_json::Value| -> Vec<f64> {
+        let all = of["storeys_acceleration_m_per_s2"].as_array().unwrap();
+        all.iter().flat_map(|one| one.as_array().unwrap()).map(|a| a.as_f64().unwrap()).collect()
+    };
+    let [both, x, y] = [spectrum, &spectrum["x"], &spectrum["y"]].map(floors);
+    assert!(!both.is_empty() && both.len() == x.len() && both.len() == y.len());
+    for (both, (x, y)) in both.iter().zip(x.iter().zip(&y)) {
+        assert!(*both >= x.max(*y) && *both <= x.hypot(*y) * (1.0 + 1e-12), "{both} {x} {y}");
+    }
+    let text = folder.stdout(&[&["run"][..], &asked, &["--out", "out"]].concat());
+    let page = folder.read("out/report.html");
+    for said in ["Floor spectra at 5 % damping", "RotD100", "along y"] {
+        assert!(text.contains(said) && page.contains(said), "{said}");
+    }
+    let table = text.split("Floor spectra").nth(1).unwrap();
+    let places = ["Ground", "Block", "Storey 1"];
+    assert!(places.iter().all(|place| table.contains(place)), "{table}");
+    assert!(page.contains("id=\"floor-spectra\""));
+}
+
 #[test]
 fn keys_where_nothing_happens() {
     let still = BLOCK.replace("3 m/s2", "0 m/s2");

@@ -75,6 +75,34 @@ fn floor_spectra_name_points_by_their_names() {
     assert_eq!((points, spectra), (Some(5), Some(5)));
 }
 
+/// So they are in two directions, where every point has RotD100 and what is along x and along y.
+#[test]
+fn floor_spectra_of_points_in_two_directions() {
+    let modes = "period_s,damping_ratio,participation_x,participation_y,roof_x,roof_y\n\
+                 0.5,0.03,800,0,0.0012,0\n0.4,0.03,0,700,0,0.0011\n";
+    let folder = folder("structure-spectra-pair", modes);
+    let (model, _) = MODEL.split_once("[motion]").expect("a motion");
+    folder.write(
+        "model.toml",
+        format!("{model}[motion]\nrecord = \"x.csv\"\nrecord_y = \"y.csv\"\n"),
+    );
+    for (name, peak) in [("x.csv", 3.0), ("y.csv", -2.0)] {
+        let record = format!("0,0\n0.2,{peak}\n0.5,-1\n0.9,{peak}\n1.4,0\n3,0\n");
+        folder.write(name, format!("time_s,acceleration_m_per_s2\n{record}"));
+    }
+    let text = folder.stdout(&["run", "model.toml", "--floor-spectrum", "--out", "out", "-q"]);
+    let table = text.split("Floor spectra").nth(1).expect("a table");
+    assert!(table.contains("Roof") && table.contains("along y"), "{table}");
+    assert!(folder.read("out/report.html").to_lowercase().contains(">roof<"));
+    let json = folder.json(&["model.toml", "--floor-spectrum"]);
+    for of in [&json["floor_spectrum"], &json["floor_spectrum"]["y"]] {
+        let points = of["storeys_acceleration_m_per_s2"].as_array().expect("a list");
+        assert_eq!(points.len(), 1);
+        let first = points[0].as_array().and_then(|sa| sa[0].as_f64()).expect("a number");
+        assert!(first > 0.0);
+    }
+}
+
 #[test]
 fn faults_of_a_table_of_modes_are_told_where_they_are() {
     for (name, from, to, place) in [

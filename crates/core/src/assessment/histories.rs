@@ -2,13 +2,17 @@
 //! upper-bound friction, and what governs.
 
 pub mod alone;
+pub mod floors;
+pub mod over_suite;
+pub mod profiles;
 
 use self::alone::{ALONE, Alone};
+use super::floors::FloorSpectra;
 use super::lateral::LateralForce;
-use super::single::{Job, Judged};
+use super::single::{Job, Judged, Outcome};
 use super::suite::{Scaled, Scaling, Suite};
 use super::{AssessmentError, FailedRun};
-use crate::error::RunError;
+use crate::error::{ChoiceError, RunError, Stopped, similar};
 use crate::input::loaded::Loaded;
 use crate::input::{Analysis, Bound, Names};
 use crate::motion::GroundMotion;
@@ -35,6 +39,28 @@ pub struct ModelOn<'a> {
     pub analysis: &'a Analysis,
     /// The records.
     pub suite: &'a Suite,
+}
+
+/// What is kept of the runs besides their demands.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Kept<'a> {
+    /// Whether floor spectra are wanted.
+    pub floor_spectra: bool,
+    /// Names of the records whose histories are wanted.
+    pub histories_of: &'a [&'a str],
+}
+
+/// The run of a record whose history was asked for.
+#[derive(Clone, Debug)]
+pub struct ChosenHistory {
+    /// Index of the model.
+    pub model: usize,
+    /// Index of the record among those of the model.
+    pub record: usize,
+    /// Index of the bound of friction.
+    pub bound: usize,
+    /// The response with its history.
+    pub response: Response,
 }
 
 /// A model on a record.
@@ -69,6 +95,8 @@ pub struct CertifiedRun {
     pub defect: Option<String>,
     /// The largest figure of its certificate by its name; none of a run without one.
     pub largest: Option<(String, f64)>,
+    /// Floor spectra, where they were asked for.
+    pub floor_spectra: Option<FloorSpectra>,
 }
 
 impl OnRecord {
@@ -107,6 +135,8 @@ pub struct ModelHistories {
     pub travels_m: Vec<Option<f64>>,
     /// Where its stop stands towards +x and −x, in m, where there is one.
     pub stop_m: [Option<f64>; 2],
+    /// Heights of the block, 0, and of the storeys or points above it in m, where the model gives all of them.
+    pub levels_m: Option<Vec<f64>>,
     /// The bounds of friction that were run.
     pub bounds: Vec<Bound>,
     /// Its records in their order.
@@ -130,6 +160,13 @@ pub struct Histories {
     pub runs: Table,
     /// What governs: model, bound, statistic, demands.
     pub governing: Table,
+    /// Floor spectra over the suites: model, bound, place, direction, period, statistics; none where they were not
+    /// asked for.
+    pub floor_spectra: Option<Table>,
+    /// Demands over the height over the suites: model, bound, demand, level, statistics; none without two storeys.
+    pub profiles: Option<Table>,
+    /// Runs whose histories were asked for: model by model, record by record, bound by bound.
+    pub chosen: Vec<ChosenHistory>,
     /// How pairs were brought to a target spectrum, and their names.
     pub matched: Option<(Matched, Vec<String>)>,
     /// What was noticed of the records together, each once.
@@ -259,21 +296,8 @@ impl ModelHistories {
     /// a record has none.
     #[must_use]
     pub fn governing(&self, column: &DemandColumn, bound: usize) -> f64 {
-        let sizes = self.sizes(column, bound);
-        if sizes.iter().any(|size| size.is_nan()) {
-            return f64::NAN;
-        }
-        let mut left = &sizes[..];
-        let of_each = self.earthquakes().filter_map(|records| {
-            let (own, rest) = left.split_at(records.len());
-            left = rest;
-            is_confirmed(records).then(|| largest(own))
-        });
-        let of_each: Vec<f64> = of_each.collect();
-        if of_each.is_empty() {
-            return f64::NAN;
-        }
-        self.statistic_of(&of_each)
+        let over = self.over_suite(|on| on.size(column, bound));
+        over.map_or(f64::NAN, |over| self.governing_of(&over))
     }
 
     /// The bound with which a demand governs, and the demand; `None` where no record has it.
@@ -302,16 +326,21 @@ fn largest(sizes: &[f64]) -> f64 {
 }
 
 /// Runs every model on every one of its records and with the bounds of friction that it gives; a record in two
-/// horizontal directions as one motion, and what each of its components says by itself beside it.
+/// horizontal directions as one motion, and what each of its components says by itself beside it. Histories are kept of
+/// the records that `kept` names, each of these runs once more.
 ///
 /// # Errors
-/// [`AssessmentError`] for records that cannot be scaled so. A record without an answer is one with its reason,
-/// and with it there is no mean or maximum.
+/// [`AssessmentError`] for records that cannot be scaled so, and for a name that is none of theirs. A record without
+/// an answer is one with its reason, and with it there is no mean or maximum.
 pub fn run_histories(
     models: &[ModelOn<'_>],
     scaling: &Scaling,
+    kept: Kept<'_>,
     engine: &Engine<'_>,
 ) -> Result<Histories, AssessmentError> {
+    for name in kept.histories_of {
+        known(name, models)?;
+    }
     let mut done = Vec::with_capacity(models.len());
     let mut matched = None;
     for model in models {
@@ -326,11 +355,11 @@ pub fn run_histories(
         };
         let run = |i: usize| {
             let (case, bound) = (case(i), &bounds[i % bounds.len()]);
-            let kept = with_bound(model, &case, bound, engine).map(|judged| {
+            let ran = with_bound(model, &case, bound, kept.floor_spectra, engine).map(|judged| {
                 let alone = alone::of(model, &case, bound, engine).ok().flatten();
                 RunFigures { alone, ..RunFigures::of(bound, judged) }
             });
-            CaseRun::of(case, kept)
+            CaseRun::of(case, ran)
         };
         let mut ran = engine.runs(cases, run)?.into_iter();
         let on =
@@ -344,6 +373,7 @@ pub fn run_histories(
             gap_m: slider.gap_m(),
             travels_m: slider.surfaces().iter().map(|on| on.travel_m).collect(),
             stop_m: slider.stop_m(),
+            levels_m: profiles::levels_m(&model.analysis.model),
             governing_history: None,
             lateral: match scaling {
                 Scaling::Target(spectrum, _) => lateral(model.analysis, spectrum),
@@ -364,13 +394,70 @@ pub fn run_histories(
         contents: all.contents.max(shape.contents),
     });
     let (runs, governing) = (table_of_runs(&done, shape), table_of_governing(&done, shape));
+    let (floor_spectra, profiles) = (floors::table(&done), profiles::table(&done));
+    let chosen = chosen(models, &done, kept.histories_of, engine)?;
     let mut notices: Vec<Notice> = Vec::new();
     for notice in models.iter().flat_map(|model| &model.suite.notices) {
         if !notices.contains(notice) {
             notices.push(notice.clone());
         }
     }
-    Ok(Histories { models: done, shape, runs, governing, matched, notices })
+    Ok(Histories {
+        models: done,
+        shape,
+        runs,
+        governing,
+        floor_spectra,
+        profiles,
+        chosen,
+        matched,
+        notices,
+    })
+}
+
+/// Refuses a name that no record of the models has.
+fn known(name: &str, models: &[ModelOn<'_>]) -> Result<(), AssessmentError> {
+    let mut names = models.iter().flat_map(|model| &model.suite.records).map(|of| &of.name[..]);
+    if names.clone().any(|known| known == name) {
+        return Ok(());
+    }
+    let nearest = similar(name, names.clone());
+    let first = names.next().unwrap_or_default();
+    Err(AssessmentError::Choice(ChoiceError {
+        what: "history-of".to_owned(),
+        expected: format!("the name of a record of the suite, such as {first}"),
+        found: format!("{name:?}"),
+        nearest,
+    }))
+}
+
+/// The runs of some records once more, each with its history; a run without an answer has none.
+fn chosen(
+    models: &[ModelOn<'_>],
+    done: &[ModelHistories],
+    names: &[&str],
+    engine: &Engine<'_>,
+) -> Result<Vec<ChosenHistory>, Stopped> {
+    let mut cases = Vec::new();
+    for (model, of) in done.iter().enumerate() {
+        let is_chosen = |on: &OnRecord| names.contains(&&on.record[..]);
+        for (record, on) in of.records.iter().enumerate().filter(|(_, on)| is_chosen(on)) {
+            let bounds = 0..of.bounds.len();
+            cases.extend(
+                bounds.map(|bound| {
+                    (model, Case { record, bound, scale: on.scale, ..Case::default() })
+                }),
+            );
+        }
+    }
+    let ran = engine.runs(cases.len(), |i| {
+        let (model, case) = &cases[i];
+        let bound = &done[*model].bounds[case.bound];
+        let (_, outcome) = with_bound(&models[*model], case, bound, false, engine).ok()?;
+        let (record, bound) = (case.record, case.bound);
+        Some(ChosenHistory { model: *model, record, bound, response: outcome.nominal.response })
+    })?;
+    Ok(ran.into_iter().flatten().collect())
 }
 
 /// The bounds of friction that an analysis asks for.
@@ -390,6 +477,7 @@ struct RunFigures {
     defect: Option<String>,
     largest: Option<(String, f64)>,
     alone: Option<Alone>,
+    floor_spectra: Option<FloorSpectra>,
     /// Times in s and sliding displacements in m, with nominal friction.
     sliding: Option<[Vec<f64>; 2]>,
     /// What was noticed of model and motion, of the response, and of its demands.
@@ -397,8 +485,9 @@ struct RunFigures {
 }
 
 impl RunFigures {
-    fn of(bound: &Bound, (job, judged): (Job, Judged)) -> Self {
-        let Judged { model, response, certificate, .. } = judged;
+    fn of(bound: &Bound, (job, outcome): (Job, Outcome)) -> Self {
+        let Outcome { nominal, floor_spectra, .. } = outcome;
+        let Judged { model, response, certificate, .. } = nominal;
         let nominal = *bound == Bound::NOMINAL;
         let sliding = if nominal { sliding(&response) } else { None };
         let met = struck(&model, &response.demands).into_iter();
@@ -410,6 +499,7 @@ impl RunFigures {
             }),
             largest: (response.method != Method::Stepwise).then(|| certificate.largest()),
             alone: None,
+            floor_spectra,
             sliding,
             noticed: [job.warnings, response.warnings, met.collect()],
             demands: response.demands,
@@ -452,24 +542,26 @@ fn with_bound(
     model: &ModelOn<'_>,
     case: &Case,
     bound: &Bound,
+    floor_spectra: bool,
     engine: &Engine<'_>,
-) -> Result<(Job, Judged), RunError> {
+) -> Result<(Job, Outcome), RunError> {
     let motion = model.suite.motion(case.record, case.scale, 0.0)?;
-    judged(model.analysis, motion, bound, engine)
+    judged(model.analysis, motion, bound, floor_spectra, engine)
 }
 
 fn judged(
     analysis: &Analysis,
     motion: GroundMotion,
     bound: &Bound,
+    floor_spectra: bool,
     engine: &Engine<'_>,
-) -> Result<(Job, Judged), RunError> {
+) -> Result<(Job, Outcome), RunError> {
     let mut analysis = analysis.clone();
     analysis.friction_bounds = None;
     analysis.model = bound.of(&analysis.model);
     let job = Job::new(analysis, Loaded::made(motion, String::new()))?;
-    let judged = engine.watch(|go_on| job.run_while(false, go_on))?.nominal;
-    Ok((job, judged))
+    let outcome = engine.watch(|go_on| job.run_while(floor_spectra, go_on))?;
+    Ok((job, outcome))
 }
 
 /// Times in s and sliding displacements in m, sizes where they are in two directions.
@@ -505,7 +597,8 @@ impl OnRecord {
         }
         self.sliding = kept.sliding.unwrap_or_else(|| core::mem::take(&mut self.sliding));
         self.notices.extend(of_response.into_iter().chain(met.into_iter().map(of_bound)));
-        CertifiedRun { demands: kept.demands, defect: kept.defect, largest: kept.largest }
+        let RunFigures { demands, defect, largest, floor_spectra, .. } = kept;
+        CertifiedRun { demands, defect, largest, floor_spectra }
     }
 }
 
@@ -521,8 +614,8 @@ fn governing_history(
     let confirmed = (0..sizes.len()).filter(|&i| !of.records[i].is_unconfirmed());
     let record = confirmed.reduce(|a, b| if sizes[b] > sizes[a] { b } else { a })?;
     let case = Case { record, bound, scale: of.records[record].scale, ..Case::default() };
-    let (_, judged) = with_bound(model, &case, &of.bounds[bound], engine).ok()?;
-    Some((record, bound, sliding(&judged.response)?))
+    let (_, outcome) = with_bound(model, &case, &of.bounds[bound], false, engine).ok()?;
+    Some((record, bound, sliding(&outcome.nominal.response)?))
 }
 
 /// Every run as a row.

@@ -1,23 +1,18 @@
 //! One analysis in full: its motion with the tail, its certificate, lower- and upper-bound friction,
 //! floor spectra, and what an engineer must be told.
 
+use super::floors::FloorSpectra;
 use crate::check::{self, Certificate};
-use crate::error::{InputError, MotionError, SolveError, Stopped};
+use crate::error::{InputError, MotionError, SolveError};
 use crate::input::loaded::Loaded;
 use crate::input::{Analysis, Bound, MotionSource};
 use crate::model::Model;
-use crate::motion::{GroundMotion, Sine, spectrum};
+use crate::motion::{GroundMotion, Sine};
 use crate::notice::Notice;
 use crate::progress::{Cancel, NEVER_CANCELLED};
-use crate::response::{History, Method, Response};
+use crate::response::{Method, Response};
 use crate::solver;
 use crate::study::notices::{coarse_sampling, highest_hz, longest_step_s, suspicious};
-
-/// Damping ratio of floor spectra.
-const FLOOR_SPECTRUM_DAMPING: f64 = 0.05;
-
-/// Knots of a history from which on floor spectra are computed one period at a time, to be stopped.
-const LONG_HISTORY: usize = 100_000;
 
 /// An analysis with its motion, ready to be solved.
 #[derive(Clone, Debug)]
@@ -65,21 +60,6 @@ pub struct Outcome {
     pub bounds: Option<[Judged; 2]>,
     /// Floor spectra of the nominal response, where they were asked for.
     pub floor_spectra: Option<FloorSpectra>,
-}
-
-/// Absolute-acceleration response spectra of table, block and floors.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct FloorSpectra {
-    /// Damping ratio ξ of the oscillators, such as 0.05.
-    pub damping_ratio: f64,
-    /// Periods in s, increasing, > 0.
-    pub periods_s: Vec<f64>,
-    /// Of the table, one value a period, in m/s²; may be empty.
-    pub table_m_per_s2: Vec<f64>,
-    /// Of the block, one value a period, in m/s².
-    pub block_m_per_s2: Vec<f64>,
-    /// Of each floor from the block up, one value a period, in m/s².
-    pub storeys_m_per_s2: Vec<Vec<f64>>,
 }
 
 impl Outcome {
@@ -151,9 +131,10 @@ impl Job {
                 Some([with(lower)?, with(upper)?])
             }
         };
-        let history = nominal.response.history.as_ref().filter(|_| floor_spectra);
-        let of = |history| self::floor_spectra(&self.loaded.motion, history, go_on);
-        let floor_spectra = history.map(of).transpose()?;
+        let floor_spectra = match floor_spectra {
+            true => FloorSpectra::of(&self.loaded.motion, &nominal.response, go_on)?,
+            false => None,
+        };
         Ok(Outcome { nominal, bounds, floor_spectra })
     }
 
@@ -282,40 +263,4 @@ fn of_tail(analysis: &Analysis, error: &MotionError) -> InputError {
         }
         other => analysis.motion_error(other),
     }
-}
-
-/// Spectra of table, block and floors; what the knots keep is taken as linear between them, with
-/// both sides of every jump.
-fn floor_spectra(
-    motion: &GroundMotion,
-    history: &History,
-    go_on: Cancel<'_>,
-) -> Result<FloorSpectra, Stopped> {
-    let periods_s: Vec<f64> =
-        (0..120).map(|i| 0.02 * libm::pow(200.0, f64::from(i) / 119.0)).collect();
-    let of = |times_s: &[f64], acceleration: &[f64]| -> Result<Vec<f64>, Stopped> {
-        let together = if times_s.len() < LONG_HISTORY { periods_s.len() } else { 1 };
-        let mut all = Vec::new();
-        for periods_s in periods_s.chunks(together) {
-            if go_on().is_break() {
-                return Err(Stopped);
-            }
-            let spectrum = spectrum(times_s, acceleration, periods_s, &[FLOOR_SPECTRUM_DAMPING]);
-            let Ok(spectrum) = spectrum else { return Ok(Vec::new()) };
-            all.extend(spectrum.of_damping(0).iter().map(|ordinates| ordinates.sa_m_per_s2));
-        }
-        Ok(all)
-    };
-    let storey = |i: usize| -> Vec<f64> {
-        (0..history.len()).map(|knot| history.point_acceleration(knot, i)).collect()
-    };
-    Ok(FloorSpectra {
-        damping_ratio: FLOOR_SPECTRUM_DAMPING,
-        table_m_per_s2: of(motion.times_s(), motion.horizontal_m_per_s2())?,
-        block_m_per_s2: of(&history.time_s, &history.block_acceleration_m_per_s2)?,
-        storeys_m_per_s2: (0..history.point_count())
-            .map(|i| of(&history.time_s, &storey(i)))
-            .collect::<Result<_, _>>()?,
-        periods_s,
-    })
 }

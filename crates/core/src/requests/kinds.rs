@@ -80,16 +80,19 @@ const PROPERTY_FACTORS: Field = Field::new(
      aging = 1..1.3, specification = 0.85..1.15\"; with limits = 0.6..1.8 the products reach these at least",
 );
 
+const FLOOR_SPECTRUM: Field = Field::new(
+    "floor-spectrum",
+    "",
+    "Add 5 % floor response spectra of ground, block and storeys to report and JSON; of pairs RotD100, x and y, of a \
+     suite means and fractiles",
+)
+.flag();
+
 /// Fields of one analysis.
 const RUN: &[Field] = &[
     METHOD,
     PROPERTY_FACTORS,
-    Field::new(
-        "floor-spectrum",
-        "",
-        "Add 5 % floor response spectra of ground, block and storeys to report and JSON",
-    )
-    .flag(),
+    FLOOR_SPECTRUM,
     Field::new(
         "scale",
         "FACTOR",
@@ -131,6 +134,14 @@ const SUITE: &[Field] = &[
         "Plan of the building, for the total displacement of the hand calculation: \"e = 1.2 m, y = 9 m, \
          b = 18 m, d = 24 m, pt = 1.1\"",
     ),
+    FLOOR_SPECTRUM,
+    Field::new(
+        "history-of",
+        "RECORD",
+        "Record of a suite, by its name in the tables, whose history is written with each bound of friction; may be \
+         repeated",
+    )
+    .many(),
     PAIRS,
 ];
 
@@ -502,10 +513,22 @@ pub const NOT_OFFERED: &[(FrontEnd, Kind, Option<&str>, &str)] = &[
     (FrontEnd::Python, Kind::Run, Some("scale"), "Motion.scaled scales a motion"),
     (FrontEnd::Python, Kind::Run, Some("scale-to"), "Motion.scaled scales a motion"),
     (FrontEnd::Python, Kind::Run, Some("property-factors"), "slider.bounds is a key of the model"),
+    (
+        FrontEnd::Python,
+        Kind::Suite,
+        Some("history-of"),
+        "run tells the history of a model on a motion",
+    ),
     (FrontEnd::Python, Kind::Sweep, None, "study tells it"),
     (FrontEnd::Page, Kind::Run, None, "the page shows the run of its own model and motion"),
     (FrontEnd::Page, Kind::Suite, Some("code-spectrum"), "the page has no pairs of records"),
     (FrontEnd::Page, Kind::Suite, Some("periods"), "the page has no pairs of records"),
+    (
+        FrontEnd::Page,
+        Kind::Suite,
+        Some("history-of"),
+        "the page shows the histories of its own motion",
+    ),
     (FrontEnd::Page, Kind::Suite, Some("pairs"), "the page has no pairs of records"),
     (FrontEnd::Page, Kind::Spectrum, Some("pairs"), "the page has no pairs of records"),
     (FrontEnd::Page, Kind::Sensitivity, Some("pairs"), "the page has no pairs of records"),

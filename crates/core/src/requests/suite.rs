@@ -4,7 +4,7 @@ use super::fields::{Request, quantity, wrong};
 use super::{Answer, Kind, On, Results, of_measure};
 use crate::assessment::code::{Plan, named};
 use crate::assessment::grid::levels;
-use crate::assessment::histories::{ModelOn, lateral, run_histories};
+use crate::assessment::histories::{Kept, ModelOn, lateral, run_histories};
 use crate::assessment::lateral::LateralForce;
 use crate::assessment::models::Models;
 use crate::assessment::suite::{Scaling, times};
@@ -61,6 +61,9 @@ impl Request {
         let on: Vec<ModelOn<'_>> = pairs
             .map(|(on, analysis)| ModelOn { name: on.name, analysis, suite: on.suite })
             .collect();
+        let histories_of: Vec<&str> = self.all("history-of").collect();
+        let floor_spectra = self.given("floor-spectrum").is_some();
+        let kept = Kept { floor_spectra, histories_of: &histories_of };
         let names: Vec<&str> = models.iter().map(|on| on.name).collect();
         let hashes: Vec<String> = models.iter().map(|on| on.analysis.hash()).collect();
         Ok(Answer {
@@ -70,7 +73,7 @@ impl Request {
             scaled: if models.iter().all(|on| on.suite.made) { String::new() } else { scaled },
             warnings,
             found: Results::Suite {
-                histories: run_histories(&on, &scaling, engine)?,
+                histories: run_histories(&on, &scaling, kept, engine)?,
                 hazard: self.given("hazard").map(str::to_owned),
                 factors,
                 plan,

@@ -14,6 +14,7 @@ mod devices_nasty;
 mod devices_random;
 mod false_alarms;
 mod fine_integration;
+mod floors;
 mod laboratory;
 mod layers;
 mod measures;

@@ -14,7 +14,7 @@ mod spectral;
 mod standard;
 
 pub use level::{LevelMeasure, Rotated};
-pub use rotated::{RotD, rotated_spectra};
+pub use rotated::{Components, RotD, SaInPlane, rotated_spectra};
 pub use standard::IntensityMeasures;
 
 use super::GroundMotion;

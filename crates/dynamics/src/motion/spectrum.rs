@@ -99,26 +99,7 @@ pub fn spectrum(
     periods_s: &[f64],
     damping_ratios: &[f64],
 ) -> Result<Spectrum, MotionError> {
-    super::check_values(times_s.len(), acceleration_m_per_s2, None)?;
-    for (index, t) in times_s.windows(2).enumerate() {
-        if !(t[0] <= t[1] && (t[1] - t[0]).is_finite()) {
-            let (previous_s, found_s) = (t[0], t[1]);
-            return Err(MotionError::TimeOrder { index: index + 1, previous_s, found_s });
-        }
-    }
-    let duration_s = times_s[times_s.len() - 1] - times_s[0];
-    for &found in periods_s {
-        if !(found == 0.0 || (found.is_finite() && found >= 1e-7 * duration_s && found > 0.0)) {
-            let expected = "0, or a finite period of at least a ten-millionth of the duration";
-            return Err(MotionError::OutOfRange { quantity: "period in s", expected, found });
-        }
-    }
-    for &found in damping_ratios {
-        if !(0.0..1.0).contains(&found) {
-            let expected = "a ratio ξ with 0 ≤ ξ < 1";
-            return Err(MotionError::OutOfRange { quantity: "damping ratio", expected, found });
-        }
-    }
+    check(times_s, acceleration_m_per_s2, periods_s, damping_ratios)?;
     let oscillators = damping_ratios.iter().flat_map(|&xi| {
         periods_s.iter().map(move |&period_s| Oscillator { omega: TAU / period_s, xi })
     });
@@ -147,6 +128,36 @@ pub fn spectrum(
         damping_ratios: damping_ratios.to_vec(),
         ordinates: oscillators.iter().map(of).collect(),
     })
+}
+
+/// Refuses what [`spectrum`] cannot be of.
+pub(super) fn check(
+    times_s: &[f64],
+    acceleration_m_per_s2: &[f64],
+    periods_s: &[f64],
+    damping_ratios: &[f64],
+) -> Result<(), MotionError> {
+    super::check_values(times_s.len(), acceleration_m_per_s2, None)?;
+    for (index, t) in times_s.windows(2).enumerate() {
+        if !(t[0] <= t[1] && (t[1] - t[0]).is_finite()) {
+            let (previous_s, found_s) = (t[0], t[1]);
+            return Err(MotionError::TimeOrder { index: index + 1, previous_s, found_s });
+        }
+    }
+    let duration_s = times_s[times_s.len() - 1] - times_s[0];
+    for &found in periods_s {
+        if !(found == 0.0 || (found.is_finite() && found >= 1e-7 * duration_s && found > 0.0)) {
+            let expected = "0, or a finite period of at least a ten-millionth of the duration";
+            return Err(MotionError::OutOfRange { quantity: "period in s", expected, found });
+        }
+    }
+    for &found in damping_ratios {
+        if !(0.0..1.0).contains(&found) {
+            let expected = "a ratio ξ with 0 ≤ ξ < 1";
+            return Err(MotionError::OutOfRange { quantity: "damping ratio", expected, found });
+        }
+    }
+    Ok(())
 }
 
 /// An oscillator: ω in rad/s, infinite for the period 0, and its damping ratio.

@@ -164,6 +164,7 @@ def suite(
     property_factors: str | None = None,
     hazard: str | None = None,
     eccentricity: str | None = None,
+    floor_spectrum: bool = False,
     pairs: str | None = None,
     jobs: int | None = None,
     progress: Progress | None = None,
@@ -192,6 +193,8 @@ def suite(
         What the answer calls this intensity, ``"MCE_R"``.
     eccentricity
         Plan of the building, for the total displacement of the hand calculation.
+    floor_spectrum
+        Whether floor spectra are wanted: means and fractiles of the records by place, of pairs RotD100, x and y.
     pairs
         How pairs are run: ``"together"``, the table moving in two horizontal directions, or ``"separate"``, each
         component by itself.
@@ -201,7 +204,8 @@ def suite(
     Returns
     -------
     Assessment
-        Tables ``runs``, one row a run, and ``governing``.
+        Tables ``runs``, one row a run, and ``governing``; of two storeys and more ``profiles``, demands over the
+        height; ``floor-spectra`` where they are wanted.
 
     Raises
     ------

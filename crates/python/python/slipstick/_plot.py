@@ -231,8 +231,10 @@ class Plotter:
                     ax.axhline(1e-3 * value, color="0.4", ls=style, lw=0.8)
         return _over_time(ax, f"friction force{_said(axis, ' ')} [kN]")
 
-    def floor_spectra(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
+    def floor_spectra(self, ax: Axes | None = None, *, along: str | None = None, **kwargs: Any) -> Axes:
         """Response spectra of table, block and floors, of ``run(..., floor_spectrum=True)``.
+
+        In two directions RotD100, the largest over all directions; ``along`` may be ``"x"`` or ``"y"``.
 
         Raises
         ------
@@ -242,14 +244,23 @@ class Plotter:
         spectra, ax = self._response.summary.get("floor_spectrum"), axes_or_new(ax)
         if spectra is None:
             raise ValueError("expected a response of run(..., floor_spectrum=True), found one without")
+        if along is not None and along not in ("x", "y"):
+            raise ValueError(f"along: expected one of x, y, found {along!r}")
+        # In one direction what is along x is all there is.
+        (axis,) = self._along(along or "x", "x")
+        said = ""
+        if axis:
+            said = " RotD100" if along is None else _said(axis, " ")
+            spectra = spectra if along is None else spectra[axis]
+        periods = self._response.summary["floor_spectrum"]["period_s"]
         lines = [("table", spectra["table_acceleration_m_per_s2"]), ("block", spectra["block_acceleration_m_per_s2"])]
         called = [label for label, _ in self._points("acceleration_m_per_s2")]
         lines += list(zip(called, spectra["storeys_acceleration_m_per_s2"]))
         for label, values in lines:
             if values:
-                ax.plot(spectra["period_s"], np.asarray(values) / G, **{"label": label, **kwargs})
+                ax.plot(periods, np.asarray(values) / G, **{"label": label, **kwargs})
         ax.set_xscale("log")
-        ax.set(xlabel="period [s]", ylabel="spectral acceleration [g]")
+        ax.set(xlabel="period [s]", ylabel=f"spectral acceleration{said} [g]")
         ax.legend(loc="best", frameon=False)
         return ax
 

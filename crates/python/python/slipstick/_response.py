@@ -35,7 +35,9 @@ def run(
     check: bool = True,
 ) -> Response: ...
 @overload
-def run(model: _core.Model, motion: Mapping[str, _core.Motion]) -> Assessment: ...
+def run(
+    model: _core.Model, motion: Mapping[str, _core.Motion], *, floor_spectrum: bool = False
+) -> Assessment: ...
 def run(
     model: _core.Model,
     motion: _core.Motion | Mapping[str, _core.Motion] | None = None,
@@ -54,7 +56,8 @@ def run(
         The motion of the table; the model's own if left out. Several by name are a suite, of which the answer
         is that of ``suite``.
     floor_spectrum
-        Whether response spectra of table, block and floors are wanted in ``summary``.
+        Whether response spectra of table, block and floors are wanted in ``summary``; in two directions RotD100,
+        and those along x and along y.
     history
         Whether histories are kept. Demands, counts and events are the same without, bit for bit.
     check
@@ -92,12 +95,10 @@ def run(
     if isinstance(motion, Mapping):
         from ._assessment import suite
 
-        for name, asked, usual in [
-            ("floor_spectrum", floor_spectrum, False), ("history", history, True), ("check", check, True)
-        ]:
-            if asked is not usual:
+        for name, asked in [("history", history), ("check", check)]:
+            if asked is not True:
                 raise wrong(name, "one motion beside it", f"{asked} with several")
-        return suite(model, motion)
+        return suite(model, motion, floor_spectrum=floor_spectrum)
     core = _core.run(model, motion, floor_spectrum=floor_spectrum, history=history, check=check)
     warn_of(core._noticed())
     return Response(core, model, (floor_spectrum, history, check))

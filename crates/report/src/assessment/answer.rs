@@ -1,8 +1,9 @@
 //! Answers to requests, laid out, and their tables.
 
-use slipstick::assessment::histories::Histories;
+use slipstick::assessment::histories::{ChosenHistory, Histories};
 use slipstick::notice::Notice;
 use slipstick::requests::{Answer, Curves, Results};
+use slipstick::response::Response;
 use slipstick::table::Table;
 
 use super::design::DesignReport;
@@ -101,14 +102,48 @@ pub fn sheet(answer: &Answer, display: DisplayUnits) -> Sheet {
     sheet
 }
 
+/// The histories that a suite was asked for, each by the name of its file: record, model and bound where there are
+/// several.
+#[must_use]
+pub fn histories(answer: &mut Answer) -> Vec<(String, Response)> {
+    let Results::Suite { histories, .. } = &mut answer.found else { return Vec::new() };
+    let chosen = core::mem::take(&mut histories.chosen);
+    let models = &histories.models;
+    let mut named: Vec<(String, Response)> = Vec::new();
+    for ChosenHistory { model, record, bound, response } in chosen {
+        let of = &models[model];
+        let mut name = of.records[record].record.clone();
+        if models.len() > 1 {
+            name = format!("{name}-{}", of.name);
+        }
+        if of.bounds.len() > 1 {
+            name = format!("{name}-{}", of.bounds[bound].name);
+        }
+        let plain = |c: char| if c.is_alphanumeric() || "-_.+".contains(c) { c } else { '_' };
+        let name: String = name.chars().map(plain).collect();
+        let is_taken = |name: &str| named.iter().any(|(known, _)| known == name);
+        let first = format!("history-{name}.csv");
+        let numbered = (2..).map(|i| format!("history-{name}-{i}.csv"));
+        let mut free = core::iter::once(first).chain(numbered).filter(|name| !is_taken(name));
+        let name = free.next().unwrap_or_default();
+        named.push((name, response));
+    }
+    named
+}
+
 /// The tables of an answer, its own first.
 #[must_use]
 pub fn tables(answer: Answer) -> Vec<Tabled> {
     const BOTH: &[&str] = &["csv", "parquet"];
     let tabled = |name, forms, table| Tabled { name, forms, table };
     match answer.found {
-        Results::Suite { histories: Histories { runs, governing, .. }, .. } => {
-            vec![tabled("runs", &BOTH[..1], runs), tabled("governing", &BOTH[..1], governing)]
+        Results::Suite { histories, .. } => {
+            let Histories { runs, governing, floor_spectra, profiles, .. } = histories;
+            let mut tables =
+                vec![tabled("runs", &BOTH[..1], runs), tabled("governing", &BOTH[..1], governing)];
+            tables.extend(profiles.map(|table| tabled("profiles", &BOTH[..1], table)));
+            tables.extend(floor_spectra.map(|table| tabled("floor-spectra", BOTH, table)));
+            tables
         }
         Results::Spectrum(run) => {
             vec![tabled("spectrum", BOTH, run.table), tabled("runs", &BOTH[1..], run.rows)]

@@ -2,6 +2,8 @@
 
 mod code;
 mod figures;
+mod floors;
+mod profiles;
 
 use serde::Serialize;
 use slipstick::assessment::FailedRun;
@@ -320,13 +322,15 @@ impl HistoriesReport<'_> {
         let of_pairs = matched.map(|(m, names)| pairs::table(names.iter().map(String::as_str), m));
         let lateral = self.histories.models.iter().filter_map(|model| self.lateral(model));
         let alone = self.histories.models.iter().filter_map(|model| self.alone(model));
+        let over_height = self.profile_tables().into_iter().chain(self.floor_tables());
         let records = record_table(&self.recorded()).filter(|_| !self.scaled.is_empty());
         let records = records.map(|rows| ("Records".to_owned(), rows));
         let capacity = self.histories.models.iter().filter_map(|model| self.capacity(model));
         let factors = self.factors.iter().map(code::factor_table);
         let governs = capacity.chain(factors);
         let hidden = lateral.chain(alone);
-        records.into_iter().chain(governs).chain(hidden).chain(demands).chain(of_pairs).collect()
+        let all = records.into_iter().chain(governs).chain(hidden).chain(demands);
+        all.chain(over_height).chain(of_pairs).collect()
     }
 
     /// The records under their factors, each once.
@@ -399,6 +403,14 @@ impl HistoriesReport<'_> {
             method.push(
                 "The bounds of friction are products of property modification factors, of the least and of \
                  the largest: λ = (1 + 0.75 (λ_ae − 1)) λ_test λ_spec, ASCE/SEI 7, section 17.2.8.4."
+                    .to_owned(),
+            );
+        }
+        if self.histories.floor_spectra.is_some() {
+            method.push(
+                "Floor spectra are those of the acceleration of the place at the samples and both sides of every event, \
+                 straight in between. Means are arithmetic, ordinate by ordinate over the records; fractiles are \
+                 interpolated between them."
                     .to_owned(),
             );
         }
@@ -500,6 +512,9 @@ impl HistoriesReport<'_> {
                     passes_m: found.passes.map(|(_, reach_m)| reach_m),
                 }
             }),
+            #[serde(flatten)] profiles: self.profile_json().map(|profiles| view! { profiles }),
+            #[serde(flatten)] floor_spectrum:
+                self.floor_json().map(|floor_spectrum| view! { floor_spectrum }),
         }
     }
 }

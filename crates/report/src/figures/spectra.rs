@@ -1,25 +1,28 @@
 //! Floor response spectra.
 
 use super::{Drawn, shown_note, shown_storeys};
-use crate::assessment::lines::{over_x, panel, single};
+use crate::assessment::lines::{over_x, panel, stacked};
 use crate::display::Quantity;
+use crate::floors::{DIRECTIONS, largest};
 use crate::markup::shortened;
-use crate::number::printed;
-use crate::plot::{Axis, PlotSeries, Style};
-use slipstick::assessment::single::FloorSpectra;
+use crate::number::compact;
+use crate::plot::{Axis, Panel, PlotSeries, Style};
+use slipstick::assessment::floors::{FloorSpectra, PlaceSpectra};
 
 use crate::report::Report;
 
-/// Spectra of table, block and floors over a logarithmic period; none without two periods.
+/// Spectra of table, block and floors over a logarithmic period, in two horizontal directions RotD100, x and y one
+/// below the other; none without two periods.
 pub fn floors(report: &Report, spectra: &FloorSpectra) -> Option<Drawn> {
     let periods = &spectra.periods_s;
     let (&first, &last) = (periods.first()?, periods.last()?);
     if first >= last {
         return None;
     }
-    let peaks: Vec<f64> = spectra.storeys_m_per_s2.iter().map(|values| largest(values)).collect();
-    let all = peaks.iter().copied().chain([largest(&spectra.block_m_per_s2)]).fold(0.0, f64::max);
-    let unit = report.display.unit(Quantity::Acceleration, all);
+    let storeys = &spectra.sa.storeys_m_per_s2;
+    let peaks: Vec<f64> = storeys.iter().map(|values| largest(values)).collect();
+    let all = peaks.iter().copied().chain([largest(&spectra.sa.block_m_per_s2)]);
+    let unit = report.display.unit(Quantity::Acceleration, all.fold(0.0, f64::max));
     let shown = shown_storeys(&peaks);
     let storey_styles = [
         Style { width: 1.8, ..Style::DASHED },
@@ -34,32 +37,43 @@ pub fn floors(report: &Report, spectra: &FloorSpectra) -> Option<Drawn> {
             periods.iter().zip(values).map(|(&t, &a)| [t, unit.of(a)]).collect(),
         )
     };
-    let storeys = shown.iter().zip(storey_styles).map(|(&i, style)| {
-        line(names.point(i + 1).to_lowercase(), style, &spectra.storeys_m_per_s2[i])
-    });
-    let mut series: Vec<PlotSeries> = storeys.collect();
-    if !spectra.table_m_per_s2.is_empty() {
-        series.push(line("ground".to_owned(), Style::DOTTED, &spectra.table_m_per_s2));
-    }
-    let block = Style { width: 1.3, ..Style::MAIN };
-    series.push(line(names.block().to_lowercase(), block, &spectra.block_m_per_s2));
-    let values: Vec<f64> = series.iter().flat_map(|s| s.points.iter().map(|p| p[1])).collect();
-    let panel = panel(
-        Axis::logarithmic("Period (s)", first, last),
-        Axis::from_zero(unit.label("Spectral acceleration"), values),
-        230.0,
-        series,
-    );
+    let series = |sa: &PlaceSpectra| {
+        let storeys = shown.iter().zip(storey_styles).map(|(&i, style)| {
+            line(names.point(i + 1).to_lowercase(), style, &sa.storeys_m_per_s2[i])
+        });
+        let mut series: Vec<PlotSeries> = storeys.collect();
+        if !sa.table_m_per_s2.is_empty() {
+            series.push(line("ground".to_owned(), Style::DOTTED, &sa.table_m_per_s2));
+        }
+        let block = Style { width: 1.3, ..Style::MAIN };
+        series.push(line(names.block().to_lowercase(), block, &sa.block_m_per_s2));
+        series
+    };
+    let drawn: Vec<Vec<PlotSeries>> = spectra.in_directions().map(series).collect();
+    let points = drawn.iter().flatten().flat_map(|series| &series.points);
+    let values: Vec<f64> = points.map(|point| point[1]).collect();
+    let y = Axis::from_zero(unit.label("Spectral acceleration"), values);
+    let in_plane = spectra.axes.is_some();
+    let panels =
+        drawn.into_iter().zip(DIRECTIONS).enumerate().map(|(i, (mut series, direction))| {
+            if i > 0 {
+                series.iter_mut().for_each(|series| series.label.clear());
+            }
+            let label =
+                if in_plane { format!("{}, {direction}", y.label) } else { y.label.clone() };
+            let y = Axis { label, ..y.clone() };
+            let height = if in_plane { 150.0 } else { 230.0 };
+            panel(Axis::logarithmic("Period (s)", first, last), y, height, series)
+        });
+    let panels: Vec<Panel> = panels.collect();
     let place = if names.points.is_empty() { "floor" } else { "point of the structure" };
+    let directions =
+        if in_plane { " RotD100 is the largest over all horizontal directions." } else { "" };
     let caption = format!(
         "Floor response spectra: largest total acceleration of a light oscillator with {} % damping \
-         fixed to the block or a {place}, over its period. For equipment, read its own period.{}",
-        printed(100.0 * spectra.damping_ratio, 2),
+         fixed to the block or a {place}, over its period. For equipment, read its own period.{directions}{}",
+        compact(100.0 * spectra.damping_ratio),
         shown_note(&shown, peaks.len(), names)
     );
-    Some(single("floor-spectra", "Floor response spectra", caption, panel))
-}
-
-fn largest(values: &[f64]) -> f64 {
-    values.iter().copied().fold(0.0, f64::max)
+    Some(stacked("floor-spectra", "Floor response spectra", caption, panels))
 }

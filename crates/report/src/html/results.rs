@@ -2,9 +2,10 @@
 
 use slipstick::response::Event;
 
-use super::table_head;
+use super::{number_table, table_head};
 use crate::describe::{event_bearing, event_direction};
 use crate::display::{Quantity, Unit};
+use crate::floors;
 use crate::markup::Markup;
 use crate::number::{compact, count, decimals, printed, rounded, significant, typeset};
 use crate::peaks;
@@ -62,6 +63,17 @@ pub fn peaks(out: &mut Markup, report: &Report) {
     out.raw("</tbody>\n</table>\n<p class=\"note\">Peaks are absolute values of the continuous motion over the ")
         .raw("whole run, both sides of jumps included; accelerations are total. The residual ")
         .raw("sliding displacement is that of the last instant.</p>\n</section>\n");
+}
+
+/// The floor spectra at round periods, where they were asked for.
+pub fn floor_spectra(out: &mut Markup, report: &Report) {
+    let names = &report.summary.names;
+    let table =
+        report.floor_spectra.and_then(|spectra| floors::table(spectra, names, report.display));
+    let Some((heading, rows)) = table else { return };
+    out.raw("<section class=\"keep\">\n").element("h3", heading).raw("\n");
+    number_table(out, &rows);
+    out.raw("</section>\n");
 }
 
 /// Counts, and the events themselves as far as they fit.

@@ -1,7 +1,7 @@
 //! The keys of the `--json` object, which are a promise to other programs.
 
 use serde::{Serialize, Serializer};
-use slipstick::assessment::single::FloorSpectra;
+use slipstick::assessment::floors::{FloorSpectra, PlaceSpectra};
 use slipstick::assessment::suite::Recorded;
 use slipstick::motion::Figures;
 use slipstick::notice::Notice;
@@ -129,12 +129,22 @@ pub(crate) fn suite(records: &[Recorded]) -> impl Serialize {
 }
 
 fn floor_spectrum(spectra: &FloorSpectra) -> impl Serialize {
+    let axes = spectra.axes.as_ref().map(|[x, y]| {
+        view! { x: place_spectra(x), y: place_spectra(y) }
+    });
     view! {
         damping_ratio: spectra.damping_ratio,
         period_s: &spectra.periods_s,
-        table_acceleration_m_per_s2: &spectra.table_m_per_s2,
-        block_acceleration_m_per_s2: &spectra.block_m_per_s2,
-        storeys_acceleration_m_per_s2: &spectra.storeys_m_per_s2,
+        #[serde(flatten)] sa: place_spectra(&spectra.sa),
+        #[serde(flatten)] axes,
+    }
+}
+
+fn place_spectra(sa: &PlaceSpectra) -> impl Serialize {
+    view! {
+        table_acceleration_m_per_s2: &sa.table_m_per_s2,
+        block_acceleration_m_per_s2: &sa.block_m_per_s2,
+        storeys_acceleration_m_per_s2: &sa.storeys_m_per_s2,
     }
 }
 

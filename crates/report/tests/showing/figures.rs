@@ -1,7 +1,7 @@
 //! The drawings: the drawn peak is the tabled peak, labels stay inside, nothing grows without bound.
 
 use crate::support::{Case, floor_spectra, frame_model, report, rough_motion, run};
-use slipstick::assessment::single::FloorSpectra;
+use slipstick::assessment::floors::FloorSpectra;
 use slipstick::model::{InitialState, Model, Slider, Stop};
 use slipstick::motion::GroundMotion;
 use slipstick_report::DisplayUnits;

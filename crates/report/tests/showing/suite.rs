@@ -1,6 +1,6 @@
 //! Models over suites, laid out: what the check does not confirm, and records of one name.
 
-use slipstick::assessment::histories::{CertifiedRun, Histories, ModelOn, run_histories};
+use slipstick::assessment::histories::{CertifiedRun, Histories, Kept, ModelOn, run_histories};
 use slipstick::assessment::suite::{Scaling, Suite};
 use slipstick::input;
 use slipstick::input::loaded::Loaded;
@@ -28,7 +28,8 @@ fn histories(suite: &Suite) -> Histories {
     let analysis = input::parse("m.toml", MODEL, &[]).expect("a model");
     let on = ModelOn { name: "m", analysis: &analysis, suite };
     let pga = LevelMeasure { measure: Measure::Pga, rotated: None };
-    run_histories(&[on], &Scaling::Level(pga, 3.0), &Engine::unwatched()).expect("runs")
+    run_histories(&[on], &Scaling::Level(pga, 3.0), Kept::default(), &Engine::unwatched())
+        .expect("runs")
 }
 
 fn sheet(histories: Histories, suite: &Suite) -> Sheet {
@@ -54,10 +55,10 @@ fn a_run_that_is_not_confirmed_leaves_the_mean() {
     let mut wrong = right.clone();
     let broken = &mut wrong.models[0].records[3].runs[0];
     let demand = "demands error of peak_sliding_displacement_m";
-    let CertifiedRun { mut demands, .. } = broken.clone().expect("a run");
+    let CertifiedRun { mut demands, floor_spectra, .. } = broken.clone().expect("a run");
     demands.peak_sliding_displacement_m *= 100.0;
     let (defect, largest) = (Some(demand.to_owned()), Some((demand.to_owned(), 0.99)));
-    *broken = Ok(CertifiedRun { demands, defect, largest });
+    *broken = Ok(CertifiedRun { demands, defect, largest, floor_spectra });
     let sizes = right.models[0].sizes(&peak, 0);
     let left: Vec<f64> = (0..9).filter(|i| *i != 3).map(|i| sizes[i]).collect();
     let mean = left.iter().sum::<f64>() / 8.0;

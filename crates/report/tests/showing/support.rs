@@ -1,6 +1,6 @@
 //! Runs to draw and to tabulate, as the command makes them.
 
-use slipstick::assessment::single::FloorSpectra;
+use slipstick::assessment::floors::{FloorSpectra, PlaceSpectra};
 use slipstick::check::{Certificate, check};
 use slipstick::model::{Block, Damping, Frame, InitialState, Model, Slider};
 use slipstick::motion::{GroundMotion, spectrum};
@@ -90,15 +90,14 @@ pub fn floor_spectra(case: &Case) -> FloorSpectra {
         spectrum.expect("a spectrum").ordinates.iter().map(|o| o.sa_m_per_s2).collect()
     };
     let floor = |i| history.storey_acceleration_m_per_s2.iter().skip(i).step_by(history.storeys);
-    FloorSpectra {
-        damping_ratio: 0.05,
+    let sa = PlaceSpectra {
         table_m_per_s2: of(&history.table_acceleration_m_per_s2),
         block_m_per_s2: of(&history.block_acceleration_m_per_s2),
         storeys_m_per_s2: (0..history.storeys)
             .map(|i| of(&floor(i).copied().collect::<Vec<f64>>()))
             .collect(),
-        periods_s,
-    }
+    };
+    FloorSpectra { damping_ratio: 0.05, periods_s, sa, axes: None }
 }
 
 /// The report of a case with everything that is not computed filled in.

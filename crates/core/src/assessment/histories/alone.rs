@@ -70,8 +70,8 @@ pub(super) fn of(
     let mut along_y = model.analysis.clone();
     along_y.model = along_y.model.turned_to_y();
     let peak = |analysis: &Analysis, motion: GroundMotion| {
-        let (_, judged) = judged(analysis, motion, bound, engine)?;
-        Ok::<_, RunError>(judged.response.demands.peak_sliding_displacement_m)
+        let (_, outcome) = judged(analysis, motion, bound, false, engine)?;
+        Ok::<_, RunError>(outcome.nominal.response.demands.peak_sliding_displacement_m)
     };
     let axes_m = [peak(model.analysis, motion.along_x())?, peak(&along_y, motion.along_y())?];
     Ok(Some(Alone { axes_m }))

@@ -1,7 +1,7 @@
 //! Every answer says how many of its runs were certified, and what the check does not confirm is no answer.
 
 use crate::assessment::design::{DesignRequest, DesignRun, Target, run_design};
-use crate::assessment::histories::{ModelOn, run_histories};
+use crate::assessment::histories::{Kept, ModelOn, run_histories};
 use crate::assessment::ida::{IdaLevels, IdaRequest, IdaRun, run_ida};
 use crate::assessment::models::Models;
 use crate::assessment::observed::{Data, FitTo, FragilityRequest, certified, run_fragility};
@@ -125,7 +125,8 @@ fn every_answer_says_how_many_of_its_runs_were_certified() {
     assert_eq!((of_table.runs, of_table.certified as usize), (25, holds(&table)[0]));
     let analysis = input::parse("m.toml", MODEL, &[]).unwrap();
     let on = ModelOn { name: "m", analysis: &analysis, suite: &suite() };
-    let suite = run_histories(&[on], &Scaling::Factor(1.0), &Engine::unwatched()).unwrap();
+    let suite =
+        run_histories(&[on], &Scaling::Factor(1.0), Kept::default(), &Engine::unwatched()).unwrap();
     let of_suite = suite.certified();
     assert_eq!((of_suite.runs, of_suite.certified), (5, 5));
     assert!(of_suite.worst.is_some() && of_suite.unconfirmed.is_empty(), "{of_suite}");

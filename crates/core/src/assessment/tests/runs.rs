@@ -7,7 +7,7 @@ use core::sync::atomic::{AtomicU64, Ordering};
 
 use crate::assessment::AssessmentError;
 use crate::assessment::design::{DesignRequest, Target, run_design};
-use crate::assessment::histories::{ModelOn, run_histories};
+use crate::assessment::histories::{Kept, ModelOn, run_histories};
 use crate::assessment::ida::{IdaLevels, IdaRequest, run_ida};
 use crate::assessment::models::Models;
 use crate::assessment::observed::{Data, FitTo, FragilityRequest, run_fragility};
@@ -417,7 +417,8 @@ fn a_suite_is_stopped_within_a_run() {
         asked.fetch_add(1, Ordering::Relaxed);
         if runs == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };
-    let found = run_histories(&[model], &Scaling::Factor(1.0), &Engine::new(&follow));
+    let found =
+        run_histories(&[model], &Scaling::Factor(1.0), Kept::default(), &Engine::new(&follow));
     assert_eq!(found.unwrap_err(), AssessmentError::Stopped(Stopped));
     assert_eq!((asked.into_inner(), done.into_inner()), (1, 0));
 }

@@ -62,7 +62,7 @@ impl HistoriesReport<'_> {
     }
 
     /// A heading, with the name of the model where there are several.
-    fn of_model(&self, heading: &str, model: &ModelHistories) -> String {
+    pub(super) fn of_model(&self, heading: &str, model: &ModelHistories) -> String {
         match self.histories.models.len() {
             1 => heading.to_owned(),
             _ => format!("{heading}, {}", model.name),

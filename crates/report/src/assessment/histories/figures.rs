@@ -53,6 +53,8 @@ impl HistoriesReport<'_> {
         if models.iter().any(|model| model.records.len() > 1) {
             figures.extend(peaks.first().map(|peak| self.shares(peak, &unit)));
         }
+        figures.extend(self.profile_figures());
+        figures.extend(self.floor_figures());
         figures
     }
 
