@@ -131,6 +131,84 @@ impl Cycle {
     }
 }
 
+/// A figure of a cycle: one description for tables of columns, JSON and what people read.
+#[derive(Clone, Copy, Debug)]
+pub struct CycleColumn {
+    /// Its column in tables and its key in JSON.
+    pub key: &'static str,
+    /// Its SI unit.
+    pub unit: &'static str,
+    /// Its value; `None` where the cycle does not tell it.
+    pub value: fn(&Cycle) -> Option<f64>,
+    /// What people read of it.
+    pub shown: CycleCell,
+}
+
+/// What people read of a figure of a cycle.
+#[derive(Clone, Copy, Debug)]
+pub enum CycleCell {
+    /// Nothing.
+    None,
+    /// The figure times a factor, under a head that states its unit, to some significant digits.
+    Number {
+        /// The head.
+        head: &'static str,
+        /// What one in SI is.
+        factor: f64,
+        /// Significant digits.
+        digits: usize,
+    },
+    /// Friction one way, a coefficient where the normal force is known; of both ways where they cannot be told apart.
+    Friction {
+        /// Which.
+        head: &'static str,
+        /// Whether towards +x, which the figure of the other way follows.
+        is_positive: bool,
+    },
+}
+
+impl Cycle {
+    /// Its figures, in their order; kinetic friction by speed is not among them.
+    pub const COLUMNS: [CycleColumn; 12] = [
+        CycleColumn::new("from_s", "s", |c| Some(c.span_s[0])),
+        CycleColumn::new("to_s", "s", |c| Some(c.span_s[1])),
+        CycleColumn::new("frequency_hz", "Hz", |c| Some(c.frequency_hz)).number("f (Hz)", 1.0, 4),
+        CycleColumn::new("stroke_m", "m", |c| Some(c.stroke_m)).number("stroke (mm)", 1e3, 4),
+        CycleColumn::new("peak_velocity_m_per_s", "m/s", |c| Some(c.peak_velocity_m_per_s)),
+        CycleColumn::new("kinetic_positive_n", "N", |c| Some(c.kinetic_n[0]))
+            .friction("kinetic", true),
+        CycleColumn::new("kinetic_negative_n", "N", |c| Some(c.kinetic_n[1]))
+            .friction("kinetic", false),
+        CycleColumn::new("static_positive_n", "N", |c| c.static_n[0]).friction("static", true),
+        CycleColumn::new("static_negative_n", "N", |c| c.static_n[1]).friction("static", false),
+        CycleColumn::new("spring_n_per_m", "N/m", |c| c.spring_n_per_m).number(
+            "spring (N/m)",
+            1.0,
+            4,
+        ),
+        CycleColumn::new("damper_n_s_per_m", "N s/m", |c| c.damper_n_s_per_m).number(
+            "damper (N s/m)",
+            1.0,
+            4,
+        ),
+        CycleColumn::new("residual_n", "N", |c| Some(c.residual_n)).number("rms left (N)", 1.0, 3),
+    ];
+}
+
+impl CycleColumn {
+    const fn new(key: &'static str, unit: &'static str, value: fn(&Cycle) -> Option<f64>) -> Self {
+        Self { key, unit, value, shown: CycleCell::None }
+    }
+
+    const fn number(self, head: &'static str, factor: f64, digits: usize) -> Self {
+        Self { shown: CycleCell::Number { head, factor, digits }, ..self }
+    }
+
+    const fn friction(self, head: &'static str, is_positive: bool) -> Self {
+        Self { shown: CycleCell::Friction { head, is_positive }, ..self }
+    }
+}
+
 /// Kinetic friction of a cycle in one class of speeds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AtSpeed {

@@ -3,8 +3,8 @@
 
 use super::compare::table_csv;
 use super::cyclic::{
-    self, BearingLoads, CurvePoint, Cycle, CyclicError, CyclicEstimates, CyclicFit, CyclicTest,
-    KineticLaw, PressurePoint, estimates, estimates_at_loads, zero_not_stated,
+    self, BearingLoads, CurvePoint, Cycle, CycleColumn, CyclicError, CyclicEstimates, CyclicFit,
+    CyclicTest, KineticLaw, PressurePoint, estimates, estimates_at_loads, zero_not_stated,
 };
 use super::estimate::Estimate;
 use super::fitted::{self, PressureKeys};
@@ -229,24 +229,9 @@ fn cycles(fits: &[CyclicFit], measured: &[Measured]) -> Table {
     let names = tests.flat_map(|(m, fit)| fit.cycles.iter().map(|_| m.source_name.clone()));
     let mut table = Table::default();
     table.texts("test", names.collect());
-    type Figure = fn(&Cycle) -> Option<f64>;
-    let figures: [(&str, &str, Figure); 12] = [
-        ("from_s", "s", |c| Some(c.span_s[0])),
-        ("to_s", "s", |c| Some(c.span_s[1])),
-        ("frequency_hz", "Hz", |c| Some(c.frequency_hz)),
-        ("stroke_m", "m", |c| Some(c.stroke_m)),
-        ("peak_velocity_m_per_s", "m/s", |c| Some(c.peak_velocity_m_per_s)),
-        ("kinetic_positive_n", "N", |c| Some(c.kinetic_n[0])),
-        ("kinetic_negative_n", "N", |c| Some(c.kinetic_n[1])),
-        ("static_positive_n", "N", |c| c.static_n[0]),
-        ("static_negative_n", "N", |c| c.static_n[1]),
-        ("spring_n_per_m", "N/m", |c| c.spring_n_per_m),
-        ("damper_n_s_per_m", "N s/m", |c| c.damper_n_s_per_m),
-        ("residual_n", "N", |c| Some(c.residual_n)),
-    ];
-    for (name, unit, figure) in figures {
+    for CycleColumn { key, unit, value, .. } in &Cycle::COLUMNS {
         let cycles = fits.iter().flat_map(|fit| &fit.cycles);
-        table.numbers(name, unit, cycles.map(|c| figure(c).unwrap_or(f64::NAN)).collect());
+        table.numbers(key, unit, cycles.map(|c| value(c).unwrap_or(f64::NAN)).collect());
     }
     table
 }

@@ -2,15 +2,15 @@
 
 use serde::Serialize;
 use slipstick::laboratory::cyclic::{
-    AtSpeed, CurvePoint, Cycle, CyclicEstimates, CyclicFit, PressureFit, PressurePoint, RateFit,
-    means,
+    AtSpeed, CurvePoint, Cycle, CycleCell, CycleColumn, CyclicEstimates, CyclicFit, PressureFit,
+    PressurePoint, RateFit, means,
 };
 
 use super::identify::estimate_json;
 use crate::assessment::lines::{BAND, band, dots, laid, line, panel, single};
 use crate::display::{DisplayUnits, Quantity};
 use crate::figures::Drawn;
-use crate::json::each;
+use crate::json::{Members, each};
 use crate::number::significant;
 use crate::plot::{Axis, Layout, Limit, Panel, Series, Style};
 use crate::view;
@@ -136,13 +136,19 @@ pub fn table(tests: &[Test]) -> Vec<Vec<String>> {
     let unit = if tests.iter().all(|test| test.normal_n.is_some()) { "" } else { " (N)" };
     // Without the zeros of the sensors the two ways cannot be told apart.
     let by_way = tests.iter().all(|test| test.fit.zero_known && test.fit.drift.is_none());
-    let ways: &[&str] = if by_way { &[" +x", " −x"] } else { &[""] };
-    let mut heads = ["Cycle", "f (Hz)", "stroke (mm)"].map(str::to_owned).to_vec();
-    for what in ["kinetic", "static"] {
-        heads.extend(ways.iter().map(|way| format!("{what}{way}{unit}")));
-    }
-    heads.extend(["spring (N/m)", "damper (N s/m)", "rms left (N)"].map(str::to_owned));
-    let mut rows = vec![heads];
+    let head = |column: &CycleColumn| match column.shown {
+        CycleCell::None => None,
+        CycleCell::Number { head, .. } => Some(head.to_owned()),
+        CycleCell::Friction { head, is_positive: true } if by_way => {
+            Some(format!("{head} +x{unit}"))
+        }
+        CycleCell::Friction { head, is_positive: false } if by_way => {
+            Some(format!("{head} −x{unit}"))
+        }
+        CycleCell::Friction { head, is_positive } => is_positive.then(|| format!("{head}{unit}")),
+    };
+    let heads = core::iter::once("Cycle".to_owned());
+    let mut rows = vec![heads.chain(Cycle::COLUMNS.iter().filter_map(head)).collect::<Vec<_>>()];
     for (number, test) in tests.iter().enumerate() {
         for (index, cycle) in test.fit.cycles.iter().enumerate() {
             let label = if tests.len() > 1 {
@@ -150,27 +156,34 @@ pub fn table(tests: &[Test]) -> Vec<Vec<String>> {
             } else {
                 (index + 1).to_string()
             };
-            rows.push(row(label, cycle, test.normal_n.unwrap_or(1.0), by_way));
+            let over = test.normal_n.unwrap_or(1.0);
+            rows.push(core::iter::once(label).chain(cells(cycle, over, by_way)).collect());
         }
     }
     rows
 }
 
-fn row(label: String, cycle: &Cycle, over: f64, by_way: bool) -> Vec<String> {
-    let digits = |value: f64| significant(value, 4);
-    let maybe = |value: Option<f64>| value.map_or("none".to_owned(), digits);
-    let mut row = vec![label, digits(cycle.frequency_hz), digits(1e3 * cycle.stroke_m)];
-    for ways in [cycle.kinetic_n.map(Some), cycle.static_n] {
-        if by_way {
-            row.extend(ways.map(|way| maybe(way.map(|f| f / over))));
-        } else {
-            let both = ways[0].zip(ways[1]).map(|(a, b)| 0.5 * (a + b) / over);
-            row.push(maybe(both));
+/// The cells of a cycle, its friction over a normal force.
+fn cells(cycle: &Cycle, over: f64, by_way: bool) -> Vec<String> {
+    let shown = |value: Option<f64>, digits: usize| {
+        value.map_or("none".to_owned(), |value| significant(value, digits))
+    };
+    let cell = move |(i, column): (usize, &CycleColumn)| {
+        let value = (column.value)(cycle);
+        match column.shown {
+            CycleCell::None => None,
+            CycleCell::Number { factor, digits, .. } => {
+                Some(shown(value.map(|value| factor * value), digits))
+            }
+            CycleCell::Friction { .. } if by_way => Some(shown(value.map(|f| f / over), 4)),
+            CycleCell::Friction { is_positive: false, .. } => None,
+            CycleCell::Friction { .. } => {
+                let other = Cycle::COLUMNS.get(i + 1).and_then(|other| (other.value)(cycle));
+                Some(shown(value.zip(other).map(|(a, b)| 0.5 * (a + b) / over), 4))
+            }
         }
-    }
-    row.extend([cycle.spring_n_per_m, cycle.damper_n_s_per_m].map(maybe));
-    row.push(significant(cycle.residual_n, 3));
-    row
+    };
+    Cycle::COLUMNS.iter().enumerate().filter_map(cell).collect()
 }
 
 /// What only this job has in its JSON object; `slider_keys` are those for the model file.
@@ -202,22 +215,9 @@ pub fn json(
         view! { speed_m_per_s: at.speed_m_per_s, kinetic_positive_n, kinetic_negative_n }
     };
     let cycle = |cycle: &Cycle| {
-        let [from_s, to_s] = cycle.span_s;
-        let [kinetic_positive_n, kinetic_negative_n] = cycle.kinetic_n;
-        let [static_positive_n, static_negative_n] = cycle.static_n;
+        let figure = |column: &CycleColumn| (column.key, (column.value)(cycle));
         view! {
-            from_s,
-            to_s,
-            frequency_hz: cycle.frequency_hz,
-            stroke_m: cycle.stroke_m,
-            peak_velocity_m_per_s: cycle.peak_velocity_m_per_s,
-            kinetic_positive_n,
-            kinetic_negative_n,
-            static_positive_n,
-            static_negative_n,
-            spring_n_per_m: cycle.spring_n_per_m,
-            damper_n_s_per_m: cycle.damper_n_s_per_m,
-            residual_n: cycle.residual_n,
+            #[serde(flatten)] figures: Members(each(&Cycle::COLUMNS, figure)),
             by_speed: each(&cycle.by_speed, by_speed),
         }
     };
