@@ -125,11 +125,8 @@ impl Identified {
 
     /// Friction by pressure, measured and fitted, where it was taken to follow the pressure.
     fn by_pressure(&self, measured: &[Measured]) -> Vec<(&'static str, Table)> {
-        let Fitted::Cyclic { fits, together: CyclicEstimates { pressure: Some(law), .. }, .. } =
-            &self.found
-        else {
-            return Vec::new();
-        };
+        let Fitted::Cyclic { fits, together, .. } = &self.found else { return Vec::new() };
+        let Some(law) = &together.pressure else { return Vec::new() };
         if law.curve.is_empty() {
             return Vec::new();
         }
@@ -157,11 +154,8 @@ impl Identified {
 
     /// Friction by speed, measured and fitted, where it was taken to follow the speed.
     fn by_speed(&self, measured: &[Measured]) -> Vec<(&'static str, Table)> {
-        let Fitted::Cyclic { fits, together: CyclicEstimates { rate: Some(rate), .. }, .. } =
-            &self.found
-        else {
-            return Vec::new();
-        };
+        let Fitted::Cyclic { fits, together, .. } = &self.found else { return Vec::new() };
+        let Some(rate) = &together.rate else { return Vec::new() };
         let all = || {
             measured.iter().zip(fits).flat_map(|(measured, fit)| {
                 let cycles = fit.cycles.iter().enumerate();
@@ -247,7 +241,7 @@ pub enum Fitted {
         /// What each test says, in the order of the files.
         fits: Vec<CyclicFit>,
         /// What they say together.
-        together: CyclicEstimates,
+        together: Box<CyclicEstimates>,
         /// The force that presses the block on its surface in each test, in N, where it is known.
         normal_forces_n: Option<Vec<f64>>,
         /// The pressure under the weight of the model in Pa, where a model and the area of the bearing are known.
@@ -481,7 +475,7 @@ pub fn cyclic(
         model = Some(analysis);
     }
     let estimates = together.estimates.iter().chain(&together.per_hz).cloned().collect();
-    let found = Fitted::Cyclic { fits, together, normal_forces_n, at_rest_pa };
+    let found = Fitted::Cyclic { fits, together: Box::new(together), normal_forces_n, at_rest_pa };
     Ok(Identified { estimates, model, warnings, found })
 }
 

@@ -487,7 +487,7 @@ impl HistoriesReport<'_> {
             runs: columns(&self.histories.runs),
             governing: columns(&self.histories.governing),
             lateral_force: each(of_bounds, |(model, bound, found)| {
-                let figure = |of: &LateralFigure| (of.key, (of.value)(&found, total));
+                let figure = |of: &LateralFigure| (of.key, (of.value)(found, total));
                 view! {
                     model,
                     friction: bound.name,
