@@ -9,7 +9,7 @@ use super::cyclic::{
 use super::estimate::Estimate;
 use super::fitted::{self, PressureKeys};
 use super::free_vibration::{FreeVibration, free_vibration as fit_free_vibration};
-use super::measured::{Measured, Series};
+use super::measured::{Measured, MeasuredSeries};
 use super::shaking_table::{
     Builder, Parameter, TableError, TableFit, TableTest, shaking_table as fit_table,
 };
@@ -320,7 +320,7 @@ pub struct CyclicRequest<'a> {
 ///
 /// # Errors
 /// [`RecordError`] where the file lacks either.
-pub fn cyclic_histories(measured: &Measured) -> Result<[&Series; 2], RecordError> {
+pub fn cyclic_histories(measured: &Measured) -> Result<[&MeasuredSeries; 2], RecordError> {
     let displacement = match measured.get(Channel::SlidingDisplacement) {
         Some(sliding) if measured.get(Channel::Displacement).is_none() => sliding,
         _ => measured.require(Channel::Displacement)?,
@@ -433,8 +433,9 @@ pub fn cyclic(
         fits.push(cyclic::cyclic(&test).map_err(of_file)?);
     }
     let all: Vec<&CyclicFit> = fits.iter().collect();
-    let largest =
-        |[_, force]: &[&Series; 2]| force.values.iter().fold(0.0, |m: f64, f| m.max(f.abs()));
+    let largest = |[_, force]: &[&MeasuredSeries; 2]| {
+        force.values.iter().fold(0.0, |m: f64, f| m.max(f.abs()))
+    };
     let largest_n: Vec<f64> = histories.iter().map(largest).collect();
     let together = match &loads {
         Some(loads) => estimates_at_loads(&all, &largest_n, loads),
@@ -522,7 +523,10 @@ pub fn free_vibration(
 }
 
 /// The quantity asked for, else the only one.
-fn chosen<'a>(measured: &'a Measured, name: Option<&str>) -> Result<&'a Series, ChoiceError> {
+fn chosen<'a>(
+    measured: &'a Measured,
+    name: Option<&str>,
+) -> Result<&'a MeasuredSeries, ChoiceError> {
     let fault = |found: &str| {
         let names: Vec<String> = measured.series.iter().map(|s| s.channel.name()).collect();
         let expected = match names.as_slice() {

@@ -8,7 +8,7 @@ use super::{Bearing, Direction, Pressing, RateCurve, Restoring, Slider};
 pub(crate) struct Isotropic {
     /// The forces that friction holds, in N.
     pub(crate) hold: Disc,
-    pub(crate) kinetic: Kinetic,
+    pub(crate) kinetic: IsotropicFriction,
     /// `K1` in N/m without that of a pendulum, which is `N/R`: `1/R` in 1/m, 0 without one.
     pub(crate) stiffness_n_per_m: f64,
     pub(crate) per_radius: f64,
@@ -16,7 +16,7 @@ pub(crate) struct Isotropic {
 
 /// `μ_k` by the sliding speed `r`: `at_rest + gain (1 − e^(−α r))`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Kinetic {
+pub(crate) struct IsotropicFriction {
     pub(crate) at_rest: f64,
     gain: f64,
     /// `α` in s/m.
@@ -25,7 +25,7 @@ pub(crate) struct Kinetic {
     pressing: Pressing,
 }
 
-impl Kinetic {
+impl IsotropicFriction {
     /// Whether it is the same at all speeds.
     #[inline(always)]
     pub(crate) fn is_constant(&self) -> bool {
@@ -84,7 +84,10 @@ impl Slider {
         let (kinetic, alike) = match friction.rate() {
             None => {
                 let at_rest = at_rest[0];
-                (Kinetic { at_rest, gain: 0.0, rate_s_per_m: 0.0, pressing }, at_rest_alike)
+                (
+                    IsotropicFriction { at_rest, gain: 0.0, rate_s_per_m: 0.0, pressing },
+                    at_rest_alike,
+                )
             }
             Some(law) => {
                 let RateCurve::Exponential { slow, fast, rate_s_per_m } = *law.curve() else {
@@ -92,7 +95,10 @@ impl Slider {
                 };
                 let [factor, other] = Direction::BOTH.map(|way| law.factor(way));
                 let gain = factor * (fast - slow);
-                (Kinetic { at_rest: at_rest[0], gain, rate_s_per_m, pressing }, factor == other)
+                (
+                    IsotropicFriction { at_rest: at_rest[0], gain, rate_s_per_m, pressing },
+                    factor == other,
+                )
             }
         };
         let refused = [

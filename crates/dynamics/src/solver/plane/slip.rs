@@ -110,7 +110,7 @@ impl Plane<'_> {
             // At its bound a block follows the push as that turns.
             let system = &self.system;
             self.force.guess_each(&law, |change| {
-                let p = system.asked(change);
+                let p = system.required_friction(change);
                 let size = norm(p);
                 if size > 0.0 { p.map(|p| p / size) } else { along }
             });
