@@ -52,11 +52,13 @@ pub enum Dimension {
     Slowness,
     /// Pressure, in Pa.
     Pressure,
+    /// Area, in m².
+    Area,
 }
 
 impl Dimension {
     /// Every dimension, in the order of the printed table.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Mass,
         Self::Force,
         Self::Length,
@@ -69,6 +71,7 @@ impl Dimension {
         Self::Damper,
         Self::Slowness,
         Self::Pressure,
+        Self::Area,
     ];
 
     /// Its name, such as "length".
@@ -87,13 +90,15 @@ impl Dimension {
             Self::Damper => "damper constant",
             Self::Slowness => "rate by speed",
             Self::Pressure => "pressure",
+            Self::Area => "area",
         }
     }
 
     /// Its name with the indefinite article, such as "an angle".
     #[must_use]
     pub fn with_article(self) -> String {
-        let article = if matches!(self, Self::Angle | Self::Acceleration) { "an" } else { "a" };
+        let vowel = matches!(self, Self::Angle | Self::Acceleration | Self::Area);
+        let article = if vowel { "an" } else { "a" };
         format!("{article} {}", self.name())
     }
 
@@ -113,6 +118,7 @@ impl Dimension {
             Self::Damper => "250 N s/m",
             Self::Slowness => "25 s/m",
             Self::Pressure => "20 MPa",
+            Self::Area => "0.04 m2",
         }
     }
 
@@ -132,6 +138,7 @@ impl Dimension {
             Self::Damper => &DAMPER,
             Self::Slowness => &SLOWNESS,
             Self::Pressure => &PRESSURE,
+            Self::Area => &AREA,
         }
     }
 
@@ -254,6 +261,14 @@ const PRESSURE: [Unit; 6] = [
     Unit::times("N/mm2", 1e6),
     Unit::times("psi", POUND_FORCE_N / (INCH_M * INCH_M)),
     Unit::times("ksi", 1e3 * POUND_FORCE_N / (INCH_M * INCH_M)),
+];
+
+const AREA: [Unit; 5] = [
+    Unit::times("m2", 1.0),
+    Unit::over("mm2", 1e6),
+    Unit::over("cm2", 1e4),
+    Unit::times("in2", INCH_M * INCH_M),
+    Unit::times("ft2", FOOT_M * FOOT_M),
 ];
 
 /// Every unit with its dimension, in the order of the printed table.

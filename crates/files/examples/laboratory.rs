@@ -44,7 +44,12 @@ fn main() -> Result<(), Box<dyn Error>> {
             .into_iter()
             .enumerate()
     {
-        write(name, &bearing(frequency_hz, 30 + i as u64))?;
+        write(name, &bearing(&Bearing { frequency_hz, seed: 30 + i as u64, ..Bearing::BY_SPEED }))?;
+    }
+    for (i, load_kn) in [400, 800, 1600].into_iter().enumerate() {
+        let normal_n = 1e3 * f64::from(load_kn);
+        let bearing_of = Bearing { normal_n, seed: 40 + i as u64, ..Bearing::BY_PRESSURE };
+        write(&format!("load-{load_kn:04}kn.csv"), &bearing(&bearing_of))?;
     }
     write("shaking-table.csv", &shaking_table()?)?;
     write("pull-back.csv", &pull_back()?)
@@ -90,29 +95,71 @@ fn cyclic(frequency_hz: f64, seed: u64) -> String {
     text
 }
 
-/// A pendulum bearing under 800 kN between ± 80 mm: its friction follows the speed and differs by 1 % from
-/// stroke to stroke. The press gives way a little before the bearing breaks away.
-fn bearing(frequency_hz: f64, seed: u64) -> String {
+/// A bearing of 0.04 m² in a press that gives way a little before it breaks away, and its test.
+struct Bearing {
+    normal_n: f64,
+    frequency_hz: f64,
+    samples_a_cycle: f64,
+    samples: usize,
+    press_n_per_m: f64,
+    /// Static, slow and fast friction at 20 MPa.
+    friction: [f64; 3],
+    rate_s_per_m: f64,
+    /// By which friction falls as the pressure grows.
+    exponent: f64,
+    seed: u64,
+}
+
+impl Bearing {
+    /// Under 800 kN, with friction that follows the speed.
+    const BY_SPEED: Self = Self {
+        normal_n: 8e5,
+        frequency_hz: 0.5,
+        samples_a_cycle: 1000.0,
+        samples: 4400,
+        press_n_per_m: 1e8,
+        friction: [0.09, 0.04, 0.08],
+        rate_s_per_m: 25.0,
+        exponent: 0.0,
+        seed: 30,
+    };
+
+    /// With friction that follows the pressure.
+    const BY_PRESSURE: Self = Self {
+        frequency_hz: 0.08,
+        samples_a_cycle: 625.0,
+        samples: 2750,
+        press_n_per_m: 2e7,
+        friction: [0.1, 0.07, 0.07],
+        exponent: 0.2,
+        ..Self::BY_SPEED
+    };
+}
+
+/// A pendulum bearing between ± 80 mm, whose friction differs by 1 % from stroke to stroke.
+fn bearing(of: &Bearing) -> String {
     const FINE: usize = 4;
-    let (normal_n, radius_m, press_n_per_m, amplitude_m) = (8e5, 2.5, 1e8, 0.08);
-    let (limit, slow, fast, rate_s_per_m) = (0.09, 0.04, 0.08, 25.0);
+    let (radius_m, amplitude_m) = (2.5, 0.08);
+    let Bearing { normal_n, frequency_hz, press_n_per_m, rate_s_per_m, .. } = *of;
+    let [limit, slow, fast] = of.friction;
     let pendulum_n_per_m = normal_n / radius_m;
-    let mut random = Random::new(seed);
-    let dt_s = 0.001 / frequency_hz;
+    let by_pressure = libm::pow(normal_n / 8e5, -of.exponent);
+    let mut random = Random::new(of.seed);
+    let dt_s = 1.0 / of.samples_a_cycle / frequency_hz;
     let h = dt_s / FINE as f64;
     let elastic = (press_n_per_m + pendulum_n_per_m) * h;
     let wander = TAU * random.uniform();
     let (mut x, mut v, mut sliding) = (0.0, 0.0_f64, false);
     let (mut stroke, mut factor) = (-1.0, 1.0);
     let mut text = String::from("time (s),displacement (mm),force (kN)\n");
-    for i in 0..4400 * FINE {
+    for i in 0..of.samples * FINE {
         let t = i as f64 * h;
         let turns = frequency_hz * t;
         let turns = turns + 0.005 * libm::sin(0.3819 * TAU * turns + wander);
         let target = amplitude_m * libm::sin(TAU * turns);
         if libm::floor(2.0 * turns + 0.5) > stroke {
             stroke = libm::floor(2.0 * turns + 0.5);
-            factor = normal_n * (1.0 + 0.01 * random.normal());
+            factor = normal_n * by_pressure * (1.0 + 0.01 * random.normal());
         }
         let demand = press_n_per_m * (target - x) - pendulum_n_per_m * x;
         sliding |= demand.abs() > limit * factor;

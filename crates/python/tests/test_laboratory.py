@@ -97,6 +97,22 @@ def test_friction_that_follows_the_speed_is_identified_as_by_the_command() -> No
     assert "friction-by-speed" in found.figures
 
 
+def test_friction_that_follows_the_pressure_is_identified_as_by_the_command() -> None:
+    files = [LABORATORY / f"load-{load:04}kn.csv" for load in [400, 800, 1600]]
+    forces = ["400 kN", "800 kN", "1600 kN"]
+    found = ss.identify.cyclic(files, normal_force=forces, area="0.04 m2", reference_pressure="20 MPa")
+    options = ["--normal-force", ",".join(forces), "--area", "0.04 m2", "--reference-pressure", "20 MPa"]
+    assert found._core._summary_json() == command("identify", "cyclic", *files, *options, "--json", "-q")
+    exponent = found.estimates["slider.pressure.exponent"]
+    assert exponent.low < 0.2 < exponent.high
+    points, curve = found.tables["friction_by_pressure"], found.tables["pressure_curve"]
+    assert len(points) == len(found.tables["cycles"]) and len(curve) == 61
+    assert (curve["low"] < curve["kinetic_friction"]).all()
+    assert "friction-by-pressure" in found.figures
+    with pytest.raises(ss.InputError, match="^normal_force: expected one force, or one for each of 3 tests"):
+        ss.identify.cyclic(files, normal_force=forces[:2], area="0.04 m2")
+
+
 def test_free_vibration_is_identified_as_by_the_command() -> None:
     found = ss.identify.free_vibration(PULL_BACK, start="1 s")
     printed = command("identify", "free-vibration", PULL_BACK, "--start", "1 s", "--json", "-q")

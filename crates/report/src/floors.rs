@@ -46,7 +46,11 @@ pub(crate) fn heading(damping_ratio: f64, unit: &str, direction: &str) -> String
 
 /// The spectra of a run at round periods: a row a place, in two directions RotD100 with x and y below it; none
 /// without periods.
-pub(crate) fn table(spectra: &FloorSpectra, names: &Names, display: DisplayUnits) -> Option<SheetTable> {
+pub(crate) fn table(
+    spectra: &FloorSpectra,
+    names: &Names,
+    display: DisplayUnits,
+) -> Option<SheetTable> {
     let periods_s = &spectra.periods_s;
     periods_s.first()?;
     let directions: Vec<_> = spectra.in_directions().collect();

@@ -30,6 +30,7 @@ pub(super) const IDENTIFY_EXAMPLES: &str = "\
 Examples:
   slipstick identify cyclic cyclic-*.csv --mass \"124 kg\" --out friction
   slipstick identify cyclic bearing-*.csv --normal-force \"800 kN\" --law slow-fast-rate
+  slipstick identify cyclic load-1.csv load-2.csv --normal-force \"400 kN,1600 kN\" --area \"0.04 m2\"
   slipstick identify free-vibration pull-back.csv --channel storey1_acceleration --start \"2 s\"
   slipstick identify shaking-table test12.csv mock-up.toml \\
       --fit slider.static_friction,slider.kinetic_friction,slider.tilt --out fitted

@@ -244,6 +244,122 @@ fn friction_that_follows_the_speed_is_told() {
     assert!(said.contains("slider.kinetic_friction_force.rate cannot be determined: "), "{said}");
 }
 
+const LOADS: [&str; 3] = ["load-0400kn.csv", "load-0800kn.csv", "load-1600kn.csv"];
+
+/// A folder with tests of a bearing under three normal forces.
+fn loaded(name: &str) -> Folder {
+    let folder = Folder::new(name);
+    for name in LOADS {
+        let path = format!("{}/../../examples/laboratory/{name}", env!("CARGO_MANIFEST_DIR"));
+        folder.write(name, std::fs::read_to_string(path).unwrap());
+    }
+    folder
+}
+
+/// What was put in stands in the README of the examples.
+#[test]
+fn friction_that_follows_the_pressure_is_told() {
+    let folder = loaded("identify-pressure");
+    let fit = [&["identify", "cyclic"], &LOADS[..], &["--area", "0.04 m2", "-q"]].concat();
+    let each = ["--normal-force", "400 kN,800 kN,1600 kN"];
+    // A bearing under 24 MPa.
+    let model =
+        "[block]\nweight = \"960 kN\"\n[slider]\nstatic_friction = 0.1\nkinetic_friction = 0.1\n";
+    folder.write("model.toml", model);
+    let out = ["--model", "model.toml", "--json", "-o", "out"];
+    let json = folder.stdout(&[&fit[..], &each, &out].concat());
+    let found: Value = serde_json::from_str(&json).unwrap();
+    let truth = [
+        ("slider.kinetic_friction", 0.07),
+        ("slider.static_friction", 0.1),
+        ("slider.pressure.exponent", 0.2),
+        ("slider.radius", 2.5),
+    ];
+    for (estimate, (path, truth)) in found["estimates"].as_array().unwrap().iter().zip(truth) {
+        assert_eq!(estimate["parameter"], path);
+        let end = |key: &str| estimate[key].as_f64().unwrap();
+        assert!(end("low") <= truth && truth <= end("high"), "{estimate}");
+        assert!(end("high") - end("low") < 0.15 * truth, "{estimate}");
+    }
+    let pressure = &found["pressure"];
+    assert_eq!(
+        (&pressure["reference_pa"], &pressure["tests"][2]["pressure_pa"]),
+        (&2e7.into(), &4e7.into())
+    );
+    assert!((pressure["at_rest_pa"].as_f64().unwrap() / 24e6 - 1.0).abs() < 1e-12);
+    assert_eq!(pressure["curve"].as_array().unwrap().len(), 61);
+    assert!(folder.read("out/report.html").contains("id=\"friction-by-pressure\""));
+    let keys = found["slider_keys"].as_str().unwrap();
+    assert!(
+        keys.contains("\n[slider.pressure]\nat_rest = \"24.0 MPa\"\nreference = \"20.0 MPa\"\n"),
+        "{keys}"
+    );
+    // The model that was written runs, and so do the keys in a model of one's own.
+    let motion = [
+        "--set",
+        "motion.sine={ frequency = \"1 Hz\", amplitude = \"3 m/s2\", \
+                   duration = \"2 s\", dt = \"0.01 s\" }",
+    ];
+    folder.stdout(&[&["run", "out/model.toml"], &motion[..]].concat());
+    folder.write("own.toml", format!("[block]\nweight = \"960 kN\"\n{keys}"));
+    folder.stdout(&[&["run", "own.toml"], &motion[..]].concat());
+    // Without a model nobody knows the pressure at rest.
+    let told = folder.stdout(&[&fit[..], &each].concat());
+    assert!(
+        told.contains("# at_rest = the pressure under the weight of the model alone"),
+        "{told}"
+    );
+    // At one force the law is not told, what holds there is.
+    let one = folder.output(&[&fit[..], &["--normal-force", "800 kN"]].concat());
+    assert_eq!(one.status.code(), Some(1), "{}", text(&one.stderr));
+    let said = text(&one.stdout);
+    let expected =
+        "slider.pressure.exponent cannot be determined: all tests are at one normal force";
+    assert!(said.contains(expected) && !said.contains("[slider.pressure]"), "{said}");
+}
+
+#[test]
+fn normal_forces_that_cannot_be_are_refused() {
+    let folder = loaded("identify-pressure-refused");
+    let cases: [(&[&str], &str); 8] = [
+        (
+            &["--normal-force", "400 kN,800 kN", "--area", "0.04 m2"],
+            "--normal-force: expected one force, or one for each of 3 tests, in their order, found 2 forces",
+        ),
+        (
+            &["--normal-force", "400 kN,-800 kN,1600 kN", "--area", "0.04 m2"],
+            "--normal-force: expected more than 0 N, found -800000 N",
+        ),
+        (
+            &["--normal-force", "400 kN,800 mm,1600 kN", "--area", "0.04 m2"],
+            "--normal-force: expected a force, such as \"12 kN\", found a length, \"800 mm\"",
+        ),
+        (
+            &["--normal-force", "400 kN,800 kN,1600 kN"],
+            "--area: expected the area of the bearing, such as \"0.04 m2\", beside normal forces that \
+             differ, found none",
+        ),
+        (
+            &["--normal-force", "800 kN", "--reference-pressure", "20 MPa"],
+            "--area: expected the area of the bearing, such as \"0.04 m2\", beside a --reference-pressure, \
+             found none",
+        ),
+        (
+            &["--area", "0.04 m2"],
+            "--area: expected a --normal-force, a --mass or a model beside the area of the bearing, found none",
+        ),
+        (&["--normal-force", "800 kN", "--area", "0 m2"], "--area: expected more than 0, found 0"),
+        (
+            &["--normal-force", "800 kN", "--area", "0.04 m2", "--reference-pressure", "0 Pa"],
+            "--reference-pressure: expected more than 0, found 0",
+        ),
+    ];
+    for (options, expected) in cases {
+        let said = folder.refused(&[&["identify", "cyclic", "-q"], &LOADS[..], options].concat());
+        assert!(said.contains(expected), "{said}");
+    }
+}
+
 /// However many there are.
 #[test]
 fn every_cyclic_test_has_its_figure() {

@@ -105,30 +105,9 @@ impl Comparison {
         table.texts("quantity", channels.clone().map(Channel::name).collect());
         let units = channels.map(|channel| channel.dimension().si_unit().to_owned());
         table.texts("unit", units.collect());
-        type Figure = fn(&Metrics) -> Option<f64>;
-        let figures: [(&str, &str, Figure); 18] = [
-            ("measured_peak", "", |m| Some(m.measured_peak)),
-            ("measured_peak_time_s", "s", |m| Some(m.measured_peak_time_s)),
-            ("predicted_peak", "", |m| Some(m.predicted_peak)),
-            ("predicted_peak_time_s", "s", |m| Some(m.predicted_peak_time_s)),
-            ("peak_ratio", "", |m| m.peak_ratio),
-            ("measured_residual", "", |m| Some(m.measured_residual)),
-            ("predicted_residual", "", |m| Some(m.predicted_residual)),
-            ("residual_error", "", |m| Some(m.residual_error)),
-            ("measured_rms", "", |m| Some(m.measured_rms)),
-            ("rms_error", "", |m| Some(m.rms_error)),
-            ("normalised_rms_error", "", |m| m.normalised_rms_error),
-            ("correlation", "", |m| m.correlation),
-            ("russell_magnitude", "", |m| m.russell.map(|r| r.magnitude)),
-            ("russell_phase", "", |m| m.russell.map(|r| r.phase)),
-            ("russell_comprehensive", "", |m| m.russell.map(|r| r.comprehensive)),
-            ("anderson_whole_band", "", |m| m.anderson.map(|a| a.mean())),
-            ("arrival_lag_s", "s", |m| m.arrival_lag_s),
-            ("correlation_at_lag", "", |m| m.lagged_correlation),
-        ];
-        for (name, unit, figure) in figures {
-            let cells = self.compared.iter().map(|c| figure(&c.metrics).unwrap_or(f64::NAN));
-            table.numbers(name, unit, cells.collect());
+        for Metric { key, unit, value, .. } in &Metrics::ALL {
+            let cells = self.compared.iter().map(|c| value(&c.metrics).unwrap_or(f64::NAN));
+            table.numbers(key, unit.unwrap_or(""), cells.collect());
         }
         table
     }
@@ -210,37 +189,100 @@ pub struct Metrics {
     pub lagged_correlation: Option<f64>,
 }
 
+/// A figure of a comparison: one description for tables of columns, JSON, what people read, and bounds.
+#[derive(Clone, Copy, Debug)]
+pub struct Metric {
+    /// Its column in tables and its key in JSON.
+    pub key: &'static str,
+    /// Its SI unit, empty for a ratio; `None` where it is that of the quantity.
+    pub unit: Option<&'static str>,
+    /// What the row of it is called; `None` where it has none, or one of its own kind.
+    pub title: Option<&'static str>,
+    /// What a bound calls it; `None` where there are no bounds on it.
+    pub bound: Option<&'static str>,
+    /// Its value; `None` where it has none.
+    pub value: fn(&Metrics) -> Option<f64>,
+}
+
+impl Metric {
+    /// One with the unit of the quantity.
+    const fn of_quantity(key: &'static str, value: fn(&Metrics) -> Option<f64>) -> Self {
+        Self { key, unit: None, title: None, bound: None, value }
+    }
+
+    const fn ratio(key: &'static str, value: fn(&Metrics) -> Option<f64>) -> Self {
+        Self { unit: Some(""), ..Self::of_quantity(key, value) }
+    }
+
+    const fn time(key: &'static str, value: fn(&Metrics) -> Option<f64>) -> Self {
+        Self { unit: Some("s"), ..Self::of_quantity(key, value) }
+    }
+
+    const fn titled(self, title: &'static str) -> Self {
+        Self { title: Some(title), ..self }
+    }
+
+    const fn bounded(self, bound: &'static str) -> Self {
+        Self { bound: Some(bound), ..self }
+    }
+}
+
 impl Metrics {
-    /// Names of the figures that a bound may be put on.
-    pub const NAMES: [&'static str; 10] = [
-        "peak_ratio",
-        "residual_error",
-        "rms_error",
-        "normalised_rms_error",
-        "correlation",
-        "russell_magnitude",
-        "russell_phase",
-        "russell_comprehensive",
-        "anderson_whole_band",
-        "arrival_lag",
+    /// All figures, in their order.
+    pub const ALL: [Metric; 18] = [
+        Metric::of_quantity("measured_peak", |m| Some(m.measured_peak)).titled("Measured peak"),
+        Metric::time("measured_peak_time_s", |m| Some(m.measured_peak_time_s)),
+        Metric::of_quantity("predicted_peak", |m| Some(m.predicted_peak)).titled("Predicted peak"),
+        Metric::time("predicted_peak_time_s", |m| Some(m.predicted_peak_time_s)),
+        Metric::ratio("peak_ratio", |m| m.peak_ratio)
+            .titled("Peak ratio (predicted/measured)")
+            .bounded("peak_ratio"),
+        Metric::of_quantity("measured_residual", |m| Some(m.measured_residual))
+            .titled("Measured at the end"),
+        Metric::of_quantity("predicted_residual", |m| Some(m.predicted_residual))
+            .titled("Predicted at the end"),
+        Metric::of_quantity("residual_error", |m| Some(m.residual_error))
+            .titled("Error at the end")
+            .bounded("residual_error"),
+        Metric::of_quantity("measured_rms", |m| Some(m.measured_rms)).titled("RMS, measured"),
+        Metric::of_quantity("rms_error", |m| Some(m.rms_error))
+            .titled("RMS of the error")
+            .bounded("rms_error"),
+        Metric::ratio("normalised_rms_error", |m| m.normalised_rms_error)
+            .titled("  over the RMS measured")
+            .bounded("normalised_rms_error"),
+        Metric::ratio("correlation", |m| m.correlation)
+            .titled("Correlation")
+            .bounded("correlation"),
+        Metric::ratio("russell_magnitude", |m| Some(m.russell?.magnitude))
+            .titled("Russell: magnitude error")
+            .bounded("russell_magnitude"),
+        Metric::ratio("russell_phase", |m| Some(m.russell?.phase))
+            .titled("Russell: phase error")
+            .bounded("russell_phase"),
+        Metric::ratio("russell_comprehensive", |m| Some(m.russell?.comprehensive))
+            .titled("Russell: comprehensive error")
+            .bounded("russell_comprehensive"),
+        Metric::ratio(Self::ANDERSON, |m| Some(m.anderson?.mean())).bounded("anderson_whole_band"),
+        Metric::time("arrival_lag_s", |m| m.arrival_lag_s)
+            .titled("Arrival lag (s)")
+            .bounded("arrival_lag"),
+        Metric::ratio("correlation_at_lag", |m| m.lagged_correlation),
     ];
 
-    /// The figure of a name, in SI; `None` where it has no value.
+    /// The key of the mean of Anderson's scores, in whose place JSON has all of them.
+    pub const ANDERSON: &'static str = "anderson_whole_band";
+
+    /// Names of the figures that a bound may be put on.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        Self::ALL.into_iter().filter_map(|figure| figure.bound)
+    }
+
+    /// The figure that a bound calls by a name, in SI; `None` where it has no value.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<f64> {
-        match name {
-            "peak_ratio" => self.peak_ratio,
-            "residual_error" => Some(self.residual_error),
-            "rms_error" => Some(self.rms_error),
-            "normalised_rms_error" => self.normalised_rms_error,
-            "correlation" => self.correlation,
-            "russell_magnitude" => self.russell.map(|r| r.magnitude),
-            "russell_phase" => self.russell.map(|r| r.phase),
-            "russell_comprehensive" => self.russell.map(|r| r.comprehensive),
-            "anderson_whole_band" => self.anderson.map(|a| a.mean()),
-            "arrival_lag" => self.arrival_lag_s,
-            _ => None,
-        }
+        let figure = Self::ALL.into_iter().find(|figure| figure.bound == Some(name))?;
+        (figure.value)(self)
     }
 
     /// The figures of a pair.

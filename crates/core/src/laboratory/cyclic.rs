@@ -16,9 +16,11 @@
 //! the middle between the two.
 //!
 //! Kinetic friction that follows the speed ([`KineticLaw::SlowFastRate`]) is read in classes of speed
-//! within each cycle, and a curve is laid through those of all cycles.
+//! within each cycle, and a curve is laid through those of all cycles. Tests under several normal forces
+//! ([`BearingLoads`]) tell how friction follows the pressure.
 
-mod rate;
+mod curve;
+mod pressure;
 mod stroke;
 
 use super::estimate::{Estimate, mean_interval, mean_interval_with_common};
@@ -26,7 +28,10 @@ use crate::notice::{Notice, NoticeKind};
 use crate::numerics::algebra::linear_fit;
 use crate::numerics::distribution::student_quantile;
 use crate::numerics::fractile::upper_median;
-pub use rate::{CurvePoint, RateFit};
+use curve::{ClassFriction, CurveCycle, CurveFit, Follows};
+pub use curve::{CurvePoint, RateFit};
+use pressure::pressure_law;
+pub use pressure::{BearingLoads, PressureFit, PressurePoint};
 use stroke::{Breakaway, Stroke, strokes};
 
 /// Fewest cycles that give an interval.
@@ -116,6 +121,92 @@ pub struct Cycle {
     pub damper_n_s_per_m: Option<f64>,
     /// Root mean square of what the fit leaves of the force, in N.
     pub residual_n: f64,
+}
+
+impl Cycle {
+    /// Kinetic friction in N, the mean of both ways.
+    #[must_use]
+    pub fn mean_kinetic_n(&self) -> f64 {
+        0.5 * (self.kinetic_n[0] + self.kinetic_n[1])
+    }
+}
+
+/// A figure of a cycle: one description for tables of columns, JSON and what people read.
+#[derive(Clone, Copy, Debug)]
+pub struct CycleColumn {
+    /// Its column in tables and its key in JSON.
+    pub key: &'static str,
+    /// Its SI unit.
+    pub unit: &'static str,
+    /// Its value; `None` where the cycle does not tell it.
+    pub value: fn(&Cycle) -> Option<f64>,
+    /// What people read of it.
+    pub shown: CycleCell,
+}
+
+/// What people read of a figure of a cycle.
+#[derive(Clone, Copy, Debug)]
+pub enum CycleCell {
+    /// Nothing.
+    None,
+    /// The figure times a factor, under a head that states its unit, to some significant digits.
+    Number {
+        /// The head.
+        head: &'static str,
+        /// What one in SI is.
+        factor: f64,
+        /// Significant digits.
+        digits: usize,
+    },
+    /// Friction one way, a coefficient where the normal force is known; of both ways where they cannot be told apart.
+    Friction {
+        /// Which.
+        head: &'static str,
+        /// Whether towards +x, which the figure of the other way follows.
+        is_positive: bool,
+    },
+}
+
+impl Cycle {
+    /// Its figures, in their order; kinetic friction by speed is not among them.
+    pub const COLUMNS: [CycleColumn; 12] = [
+        CycleColumn::new("from_s", "s", |c| Some(c.span_s[0])),
+        CycleColumn::new("to_s", "s", |c| Some(c.span_s[1])),
+        CycleColumn::new("frequency_hz", "Hz", |c| Some(c.frequency_hz)).number("f (Hz)", 1.0, 4),
+        CycleColumn::new("stroke_m", "m", |c| Some(c.stroke_m)).number("stroke (mm)", 1e3, 4),
+        CycleColumn::new("peak_velocity_m_per_s", "m/s", |c| Some(c.peak_velocity_m_per_s)),
+        CycleColumn::new("kinetic_positive_n", "N", |c| Some(c.kinetic_n[0]))
+            .friction("kinetic", true),
+        CycleColumn::new("kinetic_negative_n", "N", |c| Some(c.kinetic_n[1]))
+            .friction("kinetic", false),
+        CycleColumn::new("static_positive_n", "N", |c| c.static_n[0]).friction("static", true),
+        CycleColumn::new("static_negative_n", "N", |c| c.static_n[1]).friction("static", false),
+        CycleColumn::new("spring_n_per_m", "N/m", |c| c.spring_n_per_m).number(
+            "spring (N/m)",
+            1.0,
+            4,
+        ),
+        CycleColumn::new("damper_n_s_per_m", "N s/m", |c| c.damper_n_s_per_m).number(
+            "damper (N s/m)",
+            1.0,
+            4,
+        ),
+        CycleColumn::new("residual_n", "N", |c| Some(c.residual_n)).number("rms left (N)", 1.0, 3),
+    ];
+}
+
+impl CycleColumn {
+    const fn new(key: &'static str, unit: &'static str, value: fn(&Cycle) -> Option<f64>) -> Self {
+        Self { key, unit, value, shown: CycleCell::None }
+    }
+
+    const fn number(self, head: &'static str, factor: f64, digits: usize) -> Self {
+        Self { shown: CycleCell::Number { head, factor, digits }, ..self }
+    }
+
+    const fn friction(self, head: &'static str, is_positive: bool) -> Self {
+        Self { shown: CycleCell::Friction { head, is_positive }, ..self }
+    }
 }
 
 /// Kinetic friction of a cycle in one class of speeds.
@@ -446,8 +537,7 @@ fn drift(cycles: &[Cycle], duration_s: f64) -> Option<Drift> {
     let error = (fit.sse / freedom * fit.covariance[1][1]).sqrt();
     let n_per_s = fit.coefficients[1];
     let over_test_n = n_per_s * duration_s;
-    let kinetic_n = |cycle: &Cycle| 0.5 * (cycle.kinetic_n[0] + cycle.kinetic_n[1]);
-    let mean_n = cycles.iter().map(kinetic_n).sum::<f64>() / cycles.len() as f64;
+    let mean_n = cycles.iter().map(Cycle::mean_kinetic_n).sum::<f64>() / cycles.len() as f64;
     let half = |confidence: f64| student_quantile(confidence, freedom) * error;
     let clear =
         n_per_s.abs() > half(SURE_OF_DRIFT) && over_test_n.abs() > LEAST_DRIFT * mean_n.abs();
@@ -553,7 +643,7 @@ fn fit_cycle(
 #[derive(Clone, Debug, PartialEq)]
 pub struct CyclicEstimates {
     /// Kinetic friction (both ways together, towards +x, towards −x; or slow, fast and rate), static
-    /// friction, then spring and damper where they were fitted.
+    /// friction, the exponent of the pressure where it was sought, then spring and damper where they were fitted.
     /// Friction is a coefficient where the normal force is known, else a force in N.
     pub estimates: Vec<Estimate>,
     /// How the kinetic friction (mean of both ways) changes with frequency, per Hz; `None` for tests
@@ -561,6 +651,8 @@ pub struct CyclicEstimates {
     pub per_hz: Option<Estimate>,
     /// Kinetic friction over speed, where it was taken to follow it.
     pub rate: Option<RateFit>,
+    /// Friction over pressure, where it was taken to follow it.
+    pub pressure: Option<PressureFit>,
 }
 
 /// What some tests say together of the law that was fitted to them: means over all cycles, and a curve
@@ -578,9 +670,8 @@ pub fn estimates(
     largest_force_n: f64,
     normal_force_n: Option<f64>,
 ) -> CyclicEstimates {
-    let by_speed = fits.iter().any(|fit| fit.law == KineticLaw::SlowFastRate);
-    let law = if by_speed { KineticLaw::SlowFastRate } else { KineticLaw::Coulomb };
-    estimates_of(law, fits, largest_force_n, normal_force_n)
+    let tests = TestLoads::even(fits, largest_force_n, normal_force_n);
+    estimates_of(law_of(fits), &tests, None)
 }
 
 /// The same as means over all cycles, whatever law was fitted.
@@ -590,98 +681,312 @@ pub fn means(
     largest_force_n: f64,
     normal_force_n: Option<f64>,
 ) -> CyclicEstimates {
-    estimates_of(KineticLaw::Coulomb, fits, largest_force_n, normal_force_n)
+    let tests = TestLoads::even(fits, largest_force_n, normal_force_n);
+    estimates_of(KineticLaw::Coulomb, &tests, None)
+}
+
+/// What tests of a bearing under normal forces of their own say together: coefficients at the reference pressure, with
+/// the exponent by which all of them follow the pressure.
+///
+/// The exponent and the kinetic friction are fitted together to all cycles ([`PressureFit`] says when the exponent is
+/// refused); static friction and friction by direction are the means of what that exponent makes of each cycle at the
+/// reference pressure, and their intervals include that of the exponent. Where it is refused for normal forces that are
+/// all alike, coefficients are those at that pressure; else they are refused too. `largest_forces_n` are those of each
+/// test, as in [`estimates`].
+#[must_use]
+pub fn estimates_at_loads(
+    fits: &[&CyclicFit],
+    largest_forces_n: &[f64],
+    loads: &BearingLoads<'_>,
+) -> CyclicEstimates {
+    let (pressures_pa, reference_pa) = (loads.pressures_pa(), loads.coefficients_at_pa());
+    let of_tests = fits.iter().zip(largest_forces_n).zip(loads.normal_n).zip(pressures_pa);
+    let tests = of_tests.map(|(((fit, largest_force_n), normal_n), pressure_pa)| {
+        let is_apart = loads.are_apart();
+        let ln_pressure = if is_apart { libm::log(pressure_pa / reference_pa) } else { 0.0 };
+        TestLoad { fit, largest_force_n: *largest_force_n, normal_n: *normal_n, ln_pressure }
+    });
+    let tests = TestLoads { tests: tests.collect(), is_coefficient: true };
+    estimates_of(law_of(fits), &tests, Some(loads))
+}
+
+fn law_of(fits: &[&CyclicFit]) -> KineticLaw {
+    let by_speed = fits.iter().any(|fit| fit.law == KineticLaw::SlowFastRate);
+    if by_speed { KineticLaw::SlowFastRate } else { KineticLaw::Coulomb }
+}
+
+/// A test and what presses the block in it.
+struct TestLoad<'a> {
+    fit: &'a CyclicFit,
+    /// The largest force of the test in N, or of all that are at one normal force.
+    largest_force_n: f64,
+    /// Normal force in N; 1 where it is not known, and friction a force.
+    normal_n: f64,
+    /// `ln(p/p_ref)`; 0 where friction is not taken to follow the pressure.
+    ln_pressure: f64,
+}
+
+/// Tests under their normal forces.
+struct TestLoads<'a> {
+    tests: Vec<TestLoad<'a>>,
+    /// Whether the normal force is known.
+    is_coefficient: bool,
+}
+
+impl<'a> TestLoads<'a> {
+    /// All under one normal force.
+    fn even(fits: &[&'a CyclicFit], largest_force_n: f64, normal_force_n: Option<f64>) -> Self {
+        let normal_n = normal_force_n.unwrap_or(1.0);
+        let test =
+            |fit: &&'a CyclicFit| TestLoad { fit, largest_force_n, normal_n, ln_pressure: 0.0 };
+        Self { tests: fits.iter().map(test).collect(), is_coefficient: normal_force_n.is_some() }
+    }
+
+    fn cycles(&self) -> impl Iterator<Item = (&TestLoad<'a>, &'a Cycle)> {
+        self.tests.iter().flat_map(|test| test.fit.cycles.iter().map(move |cycle| (test, cycle)))
+    }
+
+    /// Kinetic friction of every cycle, by class of speeds or as one mean.
+    fn for_curve(&self, law: KineticLaw) -> Vec<CurveCycle> {
+        let of_cycle = |(test, cycle): (&TestLoad<'_>, &Cycle)| {
+            let class = |at: &AtSpeed| ClassFriction {
+                speed_m_per_s: at.speed_m_per_s,
+                spread_m_per_s: at.spread_m_per_s,
+                friction: 0.5 * (at.kinetic_n[0] + at.kinetic_n[1]) / test.normal_n,
+            };
+            let mean = || ClassFriction {
+                speed_m_per_s: 0.0,
+                spread_m_per_s: 0.0,
+                friction: cycle.mean_kinetic_n() / test.normal_n,
+            };
+            let classes = match law {
+                KineticLaw::SlowFastRate => cycle.by_speed.iter().map(class).collect(),
+                KineticLaw::Coulomb => vec![mean()],
+            };
+            CurveCycle { classes, ln_pressure: test.ln_pressure }
+        };
+        self.cycles().map(of_cycle).collect()
+    }
+
+    /// Why friction does not show, if it does not.
+    fn not_sliding(&self, law: KineticLaw, at_loads: bool) -> Option<String> {
+        if at_loads {
+            // What scatters between loads is the law.
+            return self.tests.iter().find_map(|test| {
+                let widths: Vec<f64> = test.fit.cycles.iter().map(Cycle::mean_kinetic_n).collect();
+                not_sliding(&widths, test.largest_force_n, law)
+            });
+        }
+        let widths: Vec<f64> = self.cycles().map(|(_, cycle)| cycle.mean_kinetic_n()).collect();
+        not_sliding(&widths, self.tests.first()?.largest_force_n, law)
+    }
+}
+
+/// The exponent of the pressure, 0 where friction does not follow it, and half its 95 % interval.
+#[derive(Clone, Copy)]
+struct Exponent {
+    value: f64,
+    half: f64,
+}
+
+impl Exponent {
+    const NONE: Self = Self { value: 0.0, half: 0.0 };
+
+    /// What turns a force of a test into friction at the reference pressure.
+    fn over_n(self, test: &TestLoad<'_>) -> f64 {
+        test.normal_n * libm::exp(-self.value * test.ln_pressure)
+    }
+
+    /// An interval of a mean of values at the reference pressure, each with its `ln(p/p_ref)`, to which that of the exponent
+    /// is added: the values follow it by their share of `ln(p/p_ref)`.
+    fn widened(self, values: &[[f64; 2]], mean: f64, ends: [f64; 2]) -> [f64; 2] {
+        if self.half == 0.0 {
+            return ends;
+        }
+        let moved: f64 = values.iter().map(|[value, ln_pressure]| value * ln_pressure).sum();
+        let by_exponent = self.half * moved / values.len() as f64;
+        ends.map(|end| mean + libm::hypot(end - mean, by_exponent).copysign(end - mean))
+    }
 }
 
 fn estimates_of(
     law: KineticLaw,
-    fits: &[&CyclicFit],
-    largest_force_n: f64,
-    normal_force_n: Option<f64>,
+    loaded: &TestLoads<'_>,
+    loads: Option<&BearingLoads<'_>>,
 ) -> CyclicEstimates {
-    let cycles: Vec<&Cycle> = fits.iter().flat_map(|fit| &fit.cycles).collect();
-    let (over_n, unit) = normal_force_n.map_or((1.0, "N"), |n| (n, ""));
-    let name = |what: &str, way: &str| {
-        let force = if normal_force_n.is_some() { "" } else { "_force" };
-        format!("slider.{what}_friction{force}{way}")
-    };
-    let mean = |cycle: &&Cycle| 0.5 * (cycle.kinetic_n[0] + cycle.kinetic_n[1]);
-    let widths: Vec<f64> = cycles.iter().map(mean).collect();
-    let why_not = not_sliding(&widths, largest_force_n, law);
-    let slides = why_not.is_none();
-    let by_way = by_way(fits);
-    let told_ways = if fits.iter().all(|fit| fit.zero_known) { 3 } else { 1 };
+    let fits: Vec<&CyclicFit> = loaded.tests.iter().map(|test| test.fit).collect();
+    let why_not = loaded.not_sliding(law, loads.is_some());
+    let by_speed = law == KineticLaw::SlowFastRate;
+    let for_curve = if by_speed || loads.is_some() { loaded.for_curve(law) } else { Vec::new() };
+    let (pressure, mut curve) = loads
+        .map(|loads| pressure_law(&for_curve, by_speed, loads, why_not.as_deref()))
+        .map_or((None, None), |(pressure, curve)| (Some(pressure), curve));
+    let exponent = curve.as_ref().and_then(|curve| curve.exponent);
+    let exponent = exponent.map_or(Exponent::NONE, |(value, interval)| {
+        let [low, high] = interval.ends;
+        Exponent { value, half: 0.5 * (high - low) }
+    });
+    let lacks_exponent = curve.is_none() && loads.is_some_and(BearingLoads::are_apart);
+    let why_not = why_not.or_else(|| lacks_exponent.then(|| NO_EXPONENT.to_owned()));
+    let friction =
+        FrictionEstimates { loaded, exponent, why_not, lacks_exponent, by_way: by_way(&fits) };
+    let rate = by_speed.then(|| {
+        let fitted = match (&friction.why_not, curve.take()) {
+            (Some(why), _) => Err(why.clone()),
+            (None, Some(curve)) => Ok(curve),
+            (None, None) => CurveFit::new(&for_curve, Follows { speed: true, pressure: false }),
+        };
+        RateFit::new(fitted.as_ref().map_err(String::as_str), loaded.is_coefficient)
+    });
     let mut estimates = Vec::new();
-    let ways = ["", ".positive", ".negative"];
-    let rate = (law == KineticLaw::SlowFastRate)
-        .then(|| rate::slow_fast_rate(&cycles, why_not.as_deref(), normal_force_n));
     estimates.extend(rate.iter().flat_map(|rate| rate.estimates.clone()));
-    for way in 0..if rate.is_some() { 0 } else { told_ways } {
-        let values: Vec<f64> = cycles
-            .iter()
-            .map(|cycle| if way == 0 { mean(cycle) } else { cycle.kinetic_n[way - 1] } / over_n)
-            .collect();
-        let path = name("kinetic", ways[way]);
-        estimates.push(match (mean_interval(&values, 0.0), &by_way) {
-            (_, Err(why)) if way > 0 && slides => Estimate::refused(path, unit, *why),
-            (Some((value, ends)), _) if slides => Estimate::determined(path, unit, value, ends),
-            _ => Estimate::refused(path, unit, why_not.clone().unwrap_or_default()),
-        });
+    let fitted = curve.and_then(|curve| curve.friction.into_iter().next()?.ok());
+    let ways = if fits.iter().all(|fit| fit.zero_known) { 0..3 } else { 0..1 };
+    if rate.is_none() {
+        estimates.extend(ways.clone().map(|way| friction.kinetic(way, fitted)));
     }
-    for way in 0..told_ways {
-        let (values, interval) = static_friction(fits, way, over_n);
-        let path = name("static", ways[way]);
-        let enough = values >= LEAST_CYCLES;
-        estimates.push(match (interval, &by_way) {
-            (Some(_), Err(why)) if way > 0 && slides && enough => {
-                Estimate::refused(path, unit, *why)
+    estimates.extend(ways.map(|way| friction.at_rest(way)));
+    estimates.extend(pressure.iter().map(|pressure| pressure.exponent.clone()));
+    estimates.extend(restoring(loaded, loads));
+    estimates.extend(damper(loaded));
+    let told = rate.is_none() && !lacks_exponent;
+    let per_hz = if told { friction.per_hz() } else { None };
+    CyclicEstimates { estimates, per_hz, rate, pressure }
+}
+
+/// Why coefficients are not told where the exponent of the pressure is not.
+const NO_EXPONENT: &str = "the exponent of the pressure is not determined, and with it what holds at the reference pressure";
+
+/// What estimates of static and kinetic friction have in common; `way` is 0 for both ways together, 1 towards +x,
+/// 2 towards −x.
+struct FrictionEstimates<'a> {
+    loaded: &'a TestLoads<'a>,
+    exponent: Exponent,
+    /// Why kinetic friction is not told, if so.
+    why_not: Option<String>,
+    /// Whether that is for want of the exponent.
+    lacks_exponent: bool,
+    /// Why friction by direction is not told, if so.
+    by_way: Result<(), &'static str>,
+}
+
+impl FrictionEstimates<'_> {
+    fn unit(&self) -> &'static str {
+        if self.loaded.is_coefficient { "" } else { "N" }
+    }
+
+    fn path(&self, what: &str, way: usize) -> String {
+        let force = if self.loaded.is_coefficient { "" } else { "_force" };
+        let way = ["", ".positive", ".negative"][way];
+        format!("slider.{what}_friction{force}{way}")
+    }
+
+    /// Kinetic friction: the mean over cycles, or what was fitted together with the exponent.
+    fn kinetic(&self, way: usize, fitted: Option<(f64, [f64; 2])>) -> Estimate {
+        let (path, unit) = (self.path("kinetic", way), self.unit());
+        if let Some(why) = &self.why_not {
+            return Estimate::refused(path, unit, why.as_str());
+        }
+        let at_reference = |(test, cycle): (&TestLoad<'_>, &Cycle)| {
+            let force_n = if way == 0 { cycle.mean_kinetic_n() } else { cycle.kinetic_n[way - 1] };
+            [force_n / self.exponent.over_n(test), test.ln_pressure]
+        };
+        let values: Vec<[f64; 2]> = self.loaded.cycles().map(at_reference).collect();
+        let plain: Vec<f64> = values.iter().map(|[value, _]| *value).collect();
+        match (fitted, mean_interval(&plain, 0.0), self.by_way) {
+            (_, _, Err(why)) if way > 0 => Estimate::refused(path, unit, why),
+            (Some((value, ends)), ..) if way == 0 => Estimate::determined(path, unit, value, ends),
+            (_, Some((value, ends)), _) => {
+                let ends = self.exponent.widened(&values, value, ends);
+                Estimate::determined(path, unit, value, ends)
             }
-            (Some((value, ends)), _) if slides && enough => Estimate::determined(path, unit, value, ends),
+            _ => Estimate::refused(path, unit, ""),
+        }
+    }
+
+    /// Static friction.
+    fn at_rest(&self, way: usize) -> Estimate {
+        let (path, unit) = (self.path("static", way), self.unit());
+        let (values, interval) = static_friction(&self.loaded.tests, way, self.exponent);
+        let is_told = self.why_not.is_none() && values >= LEAST_CYCLES;
+        match (interval, self.by_way, &self.why_not) {
+            (_, _, Some(why)) if self.lacks_exponent => Estimate::refused(path, unit, why.as_str()),
+            (Some(_), Err(why), _) if way > 0 && is_told => Estimate::refused(path, unit, why),
+            (Some((value, ends)), ..) if is_told => Estimate::determined(path, unit, value, ends),
             _ => {
                 let why = format!(
                     "only {values} of {} cycles show a breakaway that is clear of noise and sampling",
-                    cycles.len()
+                    self.loaded.cycles().count()
                 );
                 Estimate::refused(path, unit, why)
             }
-        });
-    }
-    let springs: Vec<f64> = cycles.iter().filter_map(|cycle| cycle.spring_n_per_m).collect();
-    if let Some((value, ends)) = mean_interval(&springs, 0.0) {
-        estimates.push(Estimate::determined("slider.spring", "N/m", value, ends));
-    }
-    let dampers: Vec<f64> = cycles.iter().filter_map(|cycle| cycle.damper_n_s_per_m).collect();
-    match mean_interval(&dampers, 0.0) {
-        Some((value, ends)) if dampers.len() >= LEAST_CYCLES => {
-            estimates.push(Estimate::determined("slider.damper", "N s/m", value, ends));
         }
-        _ if fits.iter().any(|fit| fit.damper_sought) => {
-            let why =
-                "the speed hardly changes within a stroke: a viscous force looks like friction";
-            estimates.push(Estimate::refused("slider.damper", "N s/m", why));
-        }
-        _ => {}
     }
-    let per_hz = if rate.is_some() { None } else { per_hz(&cycles, over_n, unit) };
-    CyclicEstimates { estimates, per_hz, rate }
+
+    /// The slope of the kinetic friction over frequency.
+    fn per_hz(&self) -> Option<Estimate> {
+        let of_cycle = |(test, cycle): (&TestLoad<'_>, &Cycle)| {
+            (cycle.frequency_hz, cycle.mean_kinetic_n() / self.exponent.over_n(test))
+        };
+        per_hz(&self.loaded.cycles().map(of_cycle).collect::<Vec<_>>(), self.unit())
+    }
 }
 
-/// How many cycles tell the static friction of both ways (`way` 0) or one, and their mean, over
-/// `over_n`, with its interval.
+/// The damper, where one was sought.
+fn damper(loaded: &TestLoads<'_>) -> Option<Estimate> {
+    let (path, unit) = ("slider.damper", "N s/m");
+    let dampers = loaded.cycles().filter_map(|(_, cycle)| cycle.damper_n_s_per_m);
+    let dampers: Vec<f64> = dampers.collect();
+    match mean_interval(&dampers, 0.0) {
+        Some((value, ends)) if dampers.len() >= LEAST_CYCLES => {
+            Some(Estimate::determined(path, unit, value, ends))
+        }
+        _ if loaded.tests.iter().any(|test| test.fit.damper_sought) => {
+            let why =
+                "the speed hardly changes within a stroke: a viscous force looks like friction";
+            Some(Estimate::refused(path, unit, why))
+        }
+        _ => None,
+    }
+}
+
+/// The spring that was fitted beside friction. Under normal forces that differ a pendulum has several, and one radius,
+/// `N/K`: that is told where it scatters less over the cycles than the spring.
+fn restoring(loaded: &TestLoads<'_>, loads: Option<&BearingLoads<'_>>) -> Option<Estimate> {
+    let springs = loaded.cycles().filter_map(|(_, cycle)| cycle.spring_n_per_m);
+    let spring = mean_interval(&springs.collect::<Vec<f64>>(), 0.0)?;
+    let scatter = |(mean, [_, high]): (f64, [f64; 2])| ((high - mean) / mean).abs();
+    let radii =
+        loaded.cycles().filter_map(|(test, cycle)| Some(test.normal_n / cycle.spring_n_per_m?));
+    let radius = loads
+        .filter(|loads| loads.are_apart())
+        .and_then(|_| mean_interval(&radii.collect::<Vec<f64>>(), 0.0))
+        .filter(|radius| scatter(*radius) < scatter(spring));
+    Some(match radius {
+        Some((value, ends)) => Estimate::determined("slider.radius", "m", value, ends),
+        None => Estimate::determined("slider.spring", "N/m", spring.0, spring.1),
+    })
+}
+
+/// How many cycles tell the static friction of both ways (`way` 0) or one, and their mean at the reference pressure
+/// with its interval.
 fn static_friction(
-    fits: &[&CyclicFit],
+    tests: &[TestLoad<'_>],
     way: usize,
-    over_n: f64,
+    exponent: Exponent,
 ) -> (usize, Option<(f64, [f64; 2])>) {
-    let value = |cycle: &Cycle| match way {
+    let value = |cycle: &Cycle, over_n: f64| match way {
         0 => Some(0.5 * (cycle.static_n[0]? + cycle.static_n[1]?) / over_n),
         _ => Some(cycle.static_n[way - 1]? / over_n),
     };
-    let mut values: Vec<f64> = Vec::new();
+    let mut values: Vec<[f64; 2]> = Vec::new();
     let (mut floor, mut common, mut locked) = (0.0, 0.0, 0);
-    for (fit, run) in fits.iter().flat_map(|fit| fit.runs.iter().map(move |run| (fit, run))) {
-        let before = values.len();
-        values.extend(fit.cycles[run.cycles.clone()].iter().filter_map(value));
+    for (test, run) in
+        tests.iter().flat_map(|test| test.fit.runs.iter().map(move |run| (test, run)))
+    {
+        let (before, over_n) = (values.len(), exponent.over_n(test));
+        let of_run = test.fit.cycles[run.cycles.clone()].iter();
+        values.extend(of_run.filter_map(|cycle| Some([value(cycle, over_n)?, test.ln_pressure])));
         let count = (values.len() - before) as f64;
         let sampling = run.sampling_n / over_n;
         floor += count * sampling * sampling / if way == 0 { 2.0 } else { 1.0 };
@@ -693,18 +998,20 @@ fn static_friction(
             locked += 1;
         }
     }
+    let plain: Vec<f64> = values.iter().map(|[value, _]| *value).collect();
     let n = values.len() as f64;
     let (floor, common) = ((floor / n).sqrt(), (common / (n * (n - 1.0))).sqrt());
     let interval = match locked {
-        0 => mean_interval(&values, floor),
-        1 => mean_interval_with_common(&values, common),
+        0 => mean_interval(&plain, floor),
+        1 => mean_interval_with_common(&plain, common),
         // Runs do not agree in their part of a step: their errors add up to a normal one.
-        _ => mean_interval(&values, 0.0).map(|(mean, [_, high])| {
+        _ => mean_interval(&plain, 0.0).map(|(mean, [_, high])| {
             let normal = crate::numerics::distribution::normal_quantile(0.975);
             let half = libm::hypot(high - mean, normal * common / 3.0_f64.sqrt());
             (mean, [mean - half, mean + half])
         }),
     };
+    let interval = interval.map(|(mean, ends)| (mean, exponent.widened(&values, mean, ends)));
     (values.len(), interval)
 }
 
@@ -747,20 +1054,15 @@ fn not_sliding(widths: &[f64], largest_force_n: f64, law: KineticLaw) -> Option<
     })
 }
 
-/// The slope of the kinetic friction over frequency, where frequencies differ by a fifth or more.
-fn per_hz(cycles: &[&Cycle], over_n: f64, unit: &'static str) -> Option<Estimate> {
-    let hz = || cycles.iter().map(|cycle| cycle.frequency_hz);
+/// The slope of the kinetic friction over frequency, of cycles with both, where frequencies differ by a fifth or more.
+fn per_hz(cycles: &[(f64, f64)], unit: &'static str) -> Option<Estimate> {
+    let hz = || cycles.iter().map(|(hz, _)| *hz);
     let (low, high) = hz().fold((f64::INFINITY, 0.0_f64), |(l, h), f| (l.min(f), h.max(f)));
     if !(high > 1.2 * low) || cycles.len() < LEAST_CYCLES {
         return None;
     }
-    let rows: Vec<([f64; 2], f64)> = cycles
-        .iter()
-        .map(|cycle| {
-            let mean = 0.5 * (cycle.kinetic_n[0] + cycle.kinetic_n[1]) / over_n;
-            ([1.0, cycle.frequency_hz], mean)
-        })
-        .collect();
+    let rows: Vec<([f64; 2], f64)> =
+        cycles.iter().map(|(hz, friction)| ([1.0, *hz], *friction)).collect();
     let fit = linear_fit(&rows)?;
     let freedom = rows.len() as f64 - 2.0;
     let half = student_quantile(0.95, freedom) * (fit.sse / freedom * fit.covariance[1][1]).sqrt();

@@ -1,11 +1,80 @@
 //! From estimates to a model: the keys that they set.
 
+use super::cyclic::PressureFit;
 use super::estimate::{Estimate, Outcome};
+use crate::error::InputError;
 use crate::input::Override;
 use crate::notice::{Notice, NoticeKind};
 
 /// Significant digits of a fitted value in a model: far more than any test tells.
 const DIGITS: usize = 6;
+
+/// The key of the exponent of the pressure.
+const EXPONENT: &str = "slider.pressure.exponent";
+
+/// A value with the digits of a model.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(value)
+}
+
+/// The keys of a model by which friction follows the pressure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PressureKeys {
+    exponent: f64,
+    reference: String,
+    /// `None` where no model is known.
+    at_rest: Option<String>,
+}
+
+impl PressureKeys {
+    /// Those of a law that was fitted, with the pressure under the weight of the model in Pa; `None` where it was not
+    /// determined, a notice where the exponent is not clear of 0.
+    ///
+    /// # Errors
+    /// [`Notice`] that the law is left out of the fitted model.
+    pub fn new(fit: &PressureFit, at_rest_pa: Option<f64>) -> Result<Option<Self>, Notice> {
+        let Some((value, [low, _])) = fit.exponent.value().zip(fit.exponent.interval()) else {
+            return Ok(None);
+        };
+        if low <= 0.0 {
+            let message = format!(
+                "{EXPONENT} is not clear of 0: the fitted model has the coefficients of the reference pressure at all \
+                 pressures"
+            );
+            return Err(Notice::new(NoticeKind::NotClearOfZero, message));
+        }
+        let megapascals = |pa: f64| format!("{:?} MPa", rounded(1e-6 * pa));
+        Ok(Some(Self {
+            exponent: rounded(value),
+            reference: megapascals(fit.reference_pa),
+            at_rest: at_rest_pa.map(megapascals),
+        }))
+    }
+
+    /// What sets them in a model.
+    ///
+    /// # Errors
+    /// [`InputError`] for a path that no model has.
+    pub fn overrides(&self) -> Result<Vec<Override>, InputError> {
+        let key =
+            |name: &str, text: &str| Override::text_value(&format!("slider.pressure.{name}"), text);
+        let at_rest = self.at_rest.as_ref().map(|text| key("at_rest", text));
+        let reference = key("reference", &self.reference);
+        at_rest.into_iter().chain([reference, Override::number(EXPONENT, self.exponent)]).collect()
+    }
+
+    /// The table `[slider.pressure]` of a model.
+    fn text(&self) -> String {
+        let at_rest = match &self.at_rest {
+            Some(text) => format!("at_rest = \"{text}\""),
+            None => "# at_rest = the pressure under the weight of the model alone".to_owned(),
+        };
+        let Self { exponent, reference, .. } = self;
+        format!(
+            "\n[slider.pressure]\n{at_rest}\nreference = \"{reference}\"\nexponent = {exponent:?}\n"
+        )
+    }
+}
 
 /// The keys of a model that estimates set, and what had to be decided.
 ///
@@ -15,6 +84,7 @@ const DIGITS: usize = 6;
 ///   large as the kinetic one, the slow one where it follows the speed.
 /// - A spring or damper whose interval reaches below 0 is left out.
 /// - What the data do not tell is left as the model has it.
+/// - The exponent of the pressure is set by [`PressureKeys`].
 #[must_use]
 pub fn overrides(estimates: &[Estimate]) -> (Vec<Override>, Vec<Notice>) {
     let mut set = Vec::new();
@@ -40,8 +110,7 @@ pub fn overrides(estimates: &[Estimate]) -> (Vec<Override>, Vec<Notice>) {
         }
     };
     let mut push = |path: &str, value: f64| {
-        let rounded = format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(value);
-        if let Ok(key) = Override::number(path, rounded) {
+        if let Ok(key) = Override::number(path, rounded(value)) {
             set.push(key);
         }
     };
@@ -97,7 +166,8 @@ pub fn overrides(estimates: &[Estimate]) -> (Vec<Override>, Vec<Notice>) {
             let way = estimate.path.strip_prefix(path);
             way.is_some_and(|way| ["", ".positive", ".negative"].contains(&way))
         };
-        if both.iter().any(of_friction) || by_speed.contains(&estimate.path) {
+        let is_set_elsewhere = by_speed.contains(&estimate.path) || estimate.path == EXPONENT;
+        if both.iter().any(of_friction) || is_set_elsewhere {
             continue;
         }
         let elastic = ["slider.spring", "slider.damper"].contains(&estimate.path.as_str());
@@ -112,9 +182,10 @@ pub fn overrides(estimates: &[Estimate]) -> (Vec<Override>, Vec<Notice>) {
     (set, warnings)
 }
 
-/// The table `[slider]` of a model with what estimates set in it; `None` where friction is not told.
+/// The table `[slider]` of a model with what estimates set in it, and how friction follows the pressure where that was
+/// fitted; `None` where friction is not told.
 #[must_use]
-pub fn slider_keys(estimates: &[Estimate]) -> Option<String> {
+pub fn slider_keys(estimates: &[Estimate], pressure: Option<&PressureKeys>) -> Option<String> {
     let (set, _) = overrides(estimates);
     let mut keys: Vec<(String, Vec<String>)> = Vec::new();
     for (path, value) in set.iter().filter_map(|key| key.text().split_once('=')) {
@@ -137,7 +208,8 @@ pub fn slider_keys(estimates: &[Estimate]) -> Option<String> {
         _ => format!("{key} = {{ {} }}\n", entries.join(", ")),
     };
     let friction = keys.iter().any(|(key, _)| key == "kinetic_friction");
-    friction.then(|| format!("[slider]\n{}", keys.iter().map(line).collect::<String>()))
+    let pressure = pressure.map_or_else(String::new, PressureKeys::text);
+    friction.then(|| format!("[slider]\n{}{pressure}", keys.iter().map(line).collect::<String>()))
 }
 
 #[cfg(test)]
@@ -200,10 +272,10 @@ mod tests {
         ];
         let expected = "[slider]\nstatic_friction = 0.06\nkinetic_friction = { slow = 0.05, fast = \
                         0.1, rate = \"20.0 s/m\" }\nspring = \"10000.0 N/m\"\n";
-        assert_eq!(slider_keys(&all).unwrap(), expected);
+        assert_eq!(slider_keys(&all, None).unwrap(), expected);
         let [_, fast, rate, limit, spring] = all;
         let without = [refused("slider.kinetic_friction.slow"), fast, rate, limit, spring];
-        assert_eq!(slider_keys(&without), None);
+        assert_eq!(slider_keys(&without, None), None);
         // Fitted to a shaking-table record one by one.
         for path in [RATE, "slider.kinetic_friction.coefficient.2"] {
             assert_eq!(paths(&[told(path, 0.1)]).0, [path]);

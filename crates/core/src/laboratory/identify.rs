@@ -3,11 +3,11 @@
 
 use super::compare::table_csv;
 use super::cyclic::{
-    self, CurvePoint, Cycle, CyclicError, CyclicEstimates, CyclicFit, CyclicTest, KineticLaw,
-    estimates, zero_not_stated,
+    self, BearingLoads, CurvePoint, Cycle, CycleColumn, CyclicError, CyclicEstimates, CyclicFit,
+    CyclicTest, KineticLaw, PressurePoint, estimates, estimates_at_loads, zero_not_stated,
 };
 use super::estimate::Estimate;
-use super::fitted;
+use super::fitted::{self, PressureKeys};
 use super::free_vibration::{FreeVibration, free_vibration as fit_free_vibration};
 use super::measured::{Measured, MeasuredSeries};
 use super::shaking_table::{
@@ -37,10 +37,14 @@ impl ModelText<'_> {
         Ok(analysis)
     }
 
-    /// The model with what was told, and what had to be decided for it.
-    fn fitted(&self, estimates: &[Estimate]) -> Result<(Analysis, Vec<Notice>), InputError> {
+    /// The model with what was told and more keys, and what had to be decided for it.
+    fn fitted(
+        &self,
+        estimates: &[Estimate],
+        more: Vec<Override>,
+    ) -> Result<(Analysis, Vec<Notice>), InputError> {
         let (told, warnings) = fitted::overrides(estimates);
-        let set: Vec<Override> = self.set.iter().cloned().chain(told).collect();
+        let set: Vec<Override> = self.set.iter().cloned().chain(told).chain(more).collect();
         Ok((input::parse(self.name, self.text, &set)?, warnings))
     }
 }
@@ -81,8 +85,8 @@ impl Identified {
 
 impl Identified {
     /// The estimates, one row a parameter; of cyclic tests also one row a cycle, and where friction follows
-    /// the speed one row a cycle and class of speeds and the fitted curve; of a shaking-table record also
-    /// the agreement with the best values.
+    /// the speed one row a cycle and class of speeds and the fitted curve, where it follows the pressure one row a
+    /// cycle and that curve; of a shaking-table record also the agreement with the best values.
     #[must_use]
     pub fn tables(&self, measured: &[Measured]) -> Vec<(&'static str, Table)> {
         let all = &self.estimates;
@@ -105,6 +109,7 @@ impl Identified {
         core::iter::once(("estimates", estimates))
             .chain(more)
             .chain(self.by_speed(measured))
+            .chain(self.by_pressure(measured))
             .collect()
     }
 
@@ -112,17 +117,45 @@ impl Identified {
     /// friction is not told as a coefficient.
     #[must_use]
     pub fn slider_keys(&self) -> Option<String> {
-        let cyclic = matches!(self.found, Fitted::Cyclic { .. });
-        cyclic.then(|| fitted::slider_keys(&self.estimates)).flatten()
+        let Fitted::Cyclic { together, at_rest_pa, .. } = &self.found else { return None };
+        let law = together.pressure.as_ref();
+        let law = law.and_then(|law| PressureKeys::new(law, *at_rest_pa).ok().flatten());
+        fitted::slider_keys(&self.estimates, law.as_ref())
+    }
+
+    /// Friction by pressure, measured and fitted, where it was taken to follow the pressure.
+    fn by_pressure(&self, measured: &[Measured]) -> Vec<(&'static str, Table)> {
+        let Fitted::Cyclic { fits, together, .. } = &self.found else { return Vec::new() };
+        let Some(law) = &together.pressure else { return Vec::new() };
+        if law.curve.is_empty() {
+            return Vec::new();
+        }
+        let tests = measured.iter().zip(fits);
+        let cycles = tests.flat_map(|(measured, fit)| {
+            (1..=fit.cycles.len()).map(|number| (measured.source_name.clone(), number as f64))
+        });
+        let (names, numbers): (Vec<String>, Vec<f64>) = cycles.unzip();
+        let of = |points: &[PressurePoint], figure: fn(&PressurePoint) -> f64| {
+            points.iter().map(figure).collect::<Vec<f64>>()
+        };
+        let (mut points, mut curve) = (Table::default(), Table::default());
+        points
+            .texts("test", names)
+            .numbers("cycle", "", numbers)
+            .numbers("pressure_pa", "Pa", of(&law.cycles, |point| point.pressure_pa))
+            .numbers("kinetic_friction", "", of(&law.cycles, |point| point.friction));
+        curve
+            .numbers("pressure_pa", "Pa", of(&law.curve, |point| point.pressure_pa))
+            .numbers("kinetic_friction", "", of(&law.curve, |point| point.friction))
+            .numbers("low", "", of(&law.curve, |point| point.interval[0]))
+            .numbers("high", "", of(&law.curve, |point| point.interval[1]));
+        vec![("friction_by_pressure", points), ("pressure_curve", curve)]
     }
 
     /// Friction by speed, measured and fitted, where it was taken to follow the speed.
     fn by_speed(&self, measured: &[Measured]) -> Vec<(&'static str, Table)> {
-        let Fitted::Cyclic { fits, together: CyclicEstimates { rate: Some(rate), .. }, .. } =
-            &self.found
-        else {
-            return Vec::new();
-        };
+        let Fitted::Cyclic { fits, together, .. } = &self.found else { return Vec::new() };
+        let Some(rate) = &together.rate else { return Vec::new() };
         let all = || {
             measured.iter().zip(fits).flat_map(|(measured, fit)| {
                 let cycles = fit.cycles.iter().enumerate();
@@ -190,24 +223,9 @@ fn cycles(fits: &[CyclicFit], measured: &[Measured]) -> Table {
     let names = tests.flat_map(|(m, fit)| fit.cycles.iter().map(|_| m.source_name.clone()));
     let mut table = Table::default();
     table.texts("test", names.collect());
-    type Figure = fn(&Cycle) -> Option<f64>;
-    let figures: [(&str, &str, Figure); 12] = [
-        ("from_s", "s", |c| Some(c.span_s[0])),
-        ("to_s", "s", |c| Some(c.span_s[1])),
-        ("frequency_hz", "Hz", |c| Some(c.frequency_hz)),
-        ("stroke_m", "m", |c| Some(c.stroke_m)),
-        ("peak_velocity_m_per_s", "m/s", |c| Some(c.peak_velocity_m_per_s)),
-        ("kinetic_positive_n", "N", |c| Some(c.kinetic_n[0])),
-        ("kinetic_negative_n", "N", |c| Some(c.kinetic_n[1])),
-        ("static_positive_n", "N", |c| c.static_n[0]),
-        ("static_negative_n", "N", |c| c.static_n[1]),
-        ("spring_n_per_m", "N/m", |c| c.spring_n_per_m),
-        ("damper_n_s_per_m", "N s/m", |c| c.damper_n_s_per_m),
-        ("residual_n", "N", |c| Some(c.residual_n)),
-    ];
-    for (name, unit, figure) in figures {
+    for CycleColumn { key, unit, value, .. } in &Cycle::COLUMNS {
         let cycles = fits.iter().flat_map(|fit| &fit.cycles);
-        table.numbers(name, unit, cycles.map(|c| figure(c).unwrap_or(f64::NAN)).collect());
+        table.numbers(key, unit, cycles.map(|c| value(c).unwrap_or(f64::NAN)).collect());
     }
     table
 }
@@ -223,9 +241,11 @@ pub enum Fitted {
         /// What each test says, in the order of the files.
         fits: Vec<CyclicFit>,
         /// What they say together.
-        together: CyclicEstimates,
-        /// The force that presses the block on its surface, in N, where it is known.
-        normal_force_n: Option<f64>,
+        together: Box<CyclicEstimates>,
+        /// The force that presses the block on its surface in each test, in N, where it is known.
+        normal_forces_n: Option<Vec<f64>>,
+        /// The pressure under the weight of the model in Pa, where a model and the area of the bearing are known.
+        at_rest_pa: Option<f64>,
     },
     /// Free vibration.
     FreeVibration {
@@ -279,8 +299,13 @@ pub enum IdentifyError {
 pub struct CyclicRequest<'a> {
     /// A model that takes the friction found.
     pub model: Option<ModelText<'a>>,
-    /// The force that presses the block on its surface, in N; the weight of the model if `None`.
-    pub normal_force_n: Option<f64>,
+    /// The force that presses the block on its surface, in N: one, or one for each test; the weight of the model if there
+    /// is none.
+    pub normal_forces_n: &'a [f64],
+    /// Area of the bearing in m², where friction is to follow the pressure.
+    pub area_m2: Option<f64>,
+    /// As in [`BearingLoads`].
+    pub reference_pa: Option<f64>,
     /// As in [`CyclicTest`].
     pub slack_m: Option<f64>,
     /// As in [`CyclicTest`].
@@ -303,23 +328,91 @@ pub fn cyclic_histories(measured: &Measured) -> Result<[&MeasuredSeries; 2], Rec
     Ok([displacement, measured.require(Channel::Force)?])
 }
 
+/// What cannot be in a field of a request.
+fn refused(what: &str, expected: impl Into<String>, found: impl Into<String>) -> ChoiceError {
+    let (what, expected, found) = (what.to_owned(), expected.into(), found.into());
+    ChoiceError { what, expected, found, nearest: None }
+}
+
+/// The normal force of each test, where it is known.
+fn normal_forces(
+    given_n: &[f64],
+    weight_n: Option<f64>,
+    tests: usize,
+) -> Result<Option<Vec<f64>>, ChoiceError> {
+    if let Some(found) = given_n.iter().chain(&weight_n).find(|n| !(**n > 0.0)) {
+        return Err(refused("normal-force", "more than 0 N", format!("{found} N")));
+    }
+    match given_n {
+        [] => Ok(weight_n.map(|weight_n| vec![weight_n; tests])),
+        [one] => Ok(Some(vec![*one; tests])),
+        each if each.len() == tests => Ok(Some(each.to_vec())),
+        each => {
+            let expected = match tests {
+                1 => "one force for the one test".to_owned(),
+                _ => format!("one force, or one for each of {tests} tests, in their order"),
+            };
+            Err(refused("normal-force", expected, format!("{} forces", each.len())))
+        }
+    }
+}
+
+/// What presses the bearing in each test, where friction is to follow the pressure.
+fn bearing_loads<'a>(
+    request: &CyclicRequest<'_>,
+    normal_forces_n: Option<&'a [f64]>,
+) -> Result<Option<BearingLoads<'a>>, ChoiceError> {
+    let CyclicRequest { area_m2, reference_pa, .. } = *request;
+    let Some(area_m2) = area_m2 else {
+        let differ = normal_forces_n.is_some_and(|all| all.windows(2).any(|two| two[0] != two[1]));
+        let expected = "the area of the bearing, such as \"0.04 m2\", beside";
+        return match reference_pa {
+            _ if differ => {
+                Err(refused("area", format!("{expected} normal forces that differ"), "none"))
+            }
+            Some(_) => Err(refused("area", format!("{expected} a `reference-pressure`"), "none")),
+            None => Ok(None),
+        };
+    };
+    for (what, found) in [("area", Some(area_m2)), ("reference-pressure", reference_pa)] {
+        if let Some(found) = found.filter(|value| !(*value > 0.0)) {
+            return Err(refused(what, "more than 0", format!("{found}")));
+        }
+    }
+    let beside = "a `normal-force`, a `mass` or a model beside the area of the bearing";
+    let normal_n = normal_forces_n.ok_or_else(|| refused("area", beside, "none"))?;
+    Ok(Some(BearingLoads { normal_n, area_m2, reference_pa }))
+}
+
+/// What was noticed of each test; of several files each warning names its own.
+fn cyclic_warnings(measured: &[Measured], fits: &[CyclicFit]) -> Vec<Notice> {
+    let of_file = |measured: &Measured, warning: Notice| match fits.len() {
+        1 => warning,
+        _ => {
+            Notice { message: format!("{}: {}", measured.source_name, warning.message), ..warning }
+        }
+    };
+    let read = measured.iter().flat_map(|m| m.warnings.iter().cloned().map(move |w| (m, w)));
+    let fitted = measured
+        .iter()
+        .zip(fits)
+        .flat_map(|(m, fit)| fit.warnings().into_iter().map(move |w| (m, w)));
+    read.chain(fitted).map(|(m, w)| of_file(m, w)).collect()
+}
+
 /// Identifies friction, spring and damper from one or several cyclic tests.
 ///
 /// # Errors
-/// [`IdentifyError`] for a model that cannot be, a normal force that is not positive, a file without
-/// displacement and force, a test in which nothing slides or with too few cycles.
+/// [`IdentifyError`] for a model that cannot be, normal forces that are not positive or not as many as tests, or differ
+/// without an area, a file without displacement and force, a test in which nothing slides or with too few cycles.
 pub fn cyclic(
     request: &CyclicRequest<'_>,
     measured: &[Measured],
 ) -> Result<Identified, IdentifyError> {
     let given = request.model.map(|model| model.analysis()).transpose()?;
-    let weight_n = given.map(|given| given.model.weight_n());
-    let normal_force_n = request.normal_force_n.or(weight_n);
-    if let Some(found) = normal_force_n.filter(|n| !(*n > 0.0)) {
-        let (expected, found) = ("more than 0 N".to_owned(), format!("{found} N"));
-        let what = "normal-force".to_owned();
-        return Err(ChoiceError { what, expected, found, nearest: None }.into());
-    }
+    let weight_n = given.as_ref().map(|given| given.model.weight_n());
+    let normal_forces_n = normal_forces(request.normal_forces_n, weight_n, measured.len())?;
+    let loads = bearing_loads(request, normal_forces_n.as_deref())?;
     let histories: Result<Vec<_>, _> = measured.iter().map(cyclic_histories).collect();
     let histories = histories?;
     let mut fits = Vec::with_capacity(measured.len());
@@ -340,35 +433,50 @@ pub fn cyclic(
         fits.push(cyclic::cyclic(&test).map_err(of_file)?);
     }
     let all: Vec<&CyclicFit> = fits.iter().collect();
-    let forces = histories.iter().flat_map(|[_, force]| &force.values);
-    let largest_n = forces.fold(0.0, |m: f64, f| m.max(f.abs()));
-    let together = estimates(&all, largest_n, normal_force_n);
-    // Of several files each warning names its own.
-    let of_file = |measured: &Measured, warning: Notice| match histories.len() {
-        1 => warning,
-        _ => {
-            Notice { message: format!("{}: {}", measured.source_name, warning.message), ..warning }
+    let largest = |[_, force]: &[&MeasuredSeries; 2]| {
+        force.values.iter().fold(0.0, |m: f64, f| m.max(f.abs()))
+    };
+    let largest_n: Vec<f64> = histories.iter().map(largest).collect();
+    let together = match &loads {
+        Some(loads) => estimates_at_loads(&all, &largest_n, loads),
+        None => {
+            let largest_n = largest_n.iter().copied().fold(0.0, f64::max);
+            let normal_force_n = normal_forces_n.as_ref().and_then(|all| all.first().copied());
+            estimates(&all, largest_n, normal_force_n)
         }
     };
-    let read = measured.iter().flat_map(|m| m.warnings.iter().cloned().map(move |w| (m, w)));
-    let fitted = measured
-        .iter()
-        .zip(&fits)
-        .flat_map(|(m, fit)| fit.warnings().into_iter().map(move |w| (m, w)));
-    let mut warnings: Vec<Notice> = read.chain(fitted).map(|(m, w)| of_file(m, w)).collect();
+    let stated = given.as_ref().and_then(|given| given.model.slider().pressure());
+    let at_rest_pa = loads.and_then(|loads| {
+        let of_weight = weight_n.map(|weight_n| weight_n / loads.area_m2);
+        stated.map(|law| law.at_rest_pa()).or(of_weight)
+    });
+    let mut warnings = cyclic_warnings(measured, &fits);
     warnings.extend(zero_not_stated(&all));
     let kinetic = match &together.rate {
         Some(rate) => rate.estimates.iter().all(|estimate| estimate.value().is_some()),
         None => together.estimates.first().is_some_and(|estimate| estimate.value().is_some()),
     };
     let mut model = None;
+    let law = together.pressure.as_ref().map(|law| PressureKeys::new(law, at_rest_pa)).transpose();
+    let law = law.map(Option::flatten).unwrap_or_else(|notice| {
+        warnings.push(notice);
+        None
+    });
     if let Some(text) = request.model.filter(|_| kinetic) {
-        let (analysis, decided) = text.fitted(&together.estimates)?;
+        let more = match &law {
+            Some(law) => law.overrides()?,
+            // What was fitted holds at any pressure.
+            None if stated.is_some() && loads.is_some() => {
+                vec![Override::removal("slider.pressure")?]
+            }
+            None => Vec::new(),
+        };
+        let (analysis, decided) = text.fitted(&together.estimates, more)?;
         warnings.extend(decided);
         model = Some(analysis);
     }
     let estimates = together.estimates.iter().chain(&together.per_hz).cloned().collect();
-    let found = Fitted::Cyclic { fits, together, normal_force_n };
+    let found = Fitted::Cyclic { fits, together: Box::new(together), normal_forces_n, at_rest_pa };
     Ok(Identified { estimates, model, warnings, found })
 }
 
@@ -406,7 +514,7 @@ pub fn free_vibration(
     let mut warnings = measured.warnings.clone();
     let mut model = None;
     if let Some(text) = request.model.filter(|_| fit.frequency.value().is_some()) {
-        let (analysis, decided) = text.fitted(&estimates)?;
+        let (analysis, decided) = text.fitted(&estimates, Vec::new())?;
         warnings.extend(decided);
         model = Some(analysis);
     }
@@ -484,7 +592,7 @@ pub fn shaking_table(
         seed: request.seed,
     };
     let fit = fit_table(&test, engine)?;
-    let (model, decided) = text.fitted(&fit.estimates)?;
+    let (model, decided) = text.fitted(&fit.estimates, Vec::new())?;
     let mut warnings = fit.comparison.warnings.clone();
     warnings.extend(fit.warnings.iter().cloned());
     warnings.extend(decided);

@@ -335,7 +335,21 @@ const CYCLIC: &[Field] = &[
     Field::new(
         "normal-force",
         "FORCE",
-        "Force that presses the block on its surface, where it is not the weight of that mass",
+        "Force that presses the block on its surface, where it is not the weight of that mass: of all tests, or one \
+         for each in their order, \"400 kN,800 kN\"",
+    )
+    .many(),
+    Field::new(
+        "area",
+        "AREA",
+        "Area of the bearing: from tests under several normal forces, how friction follows the pressure, \
+         μ(p) = μ (p/reference)^(-exponent)",
+    ),
+    Field::new(
+        "reference-pressure",
+        "PRESSURE",
+        "Pressure at which coefficients are told; if left out, that of the tests which is next to the geometric mean of \
+         the least and the largest",
     ),
     Field::new(
         "law",

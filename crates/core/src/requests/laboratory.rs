@@ -1,6 +1,6 @@
 //! What is asked of tests of a laboratory.
 
-use super::fields::{Request, wrong};
+use super::fields::{Request, quantity, wrong};
 use super::kinds::Kind;
 use crate::error::ChoiceError;
 use crate::laboratory::compare::Within;
@@ -97,9 +97,13 @@ impl Request {
         let block = self.given("mass").map(block_text);
         let of_mass = block.as_ref().map(|text| ModelText { name: "mass", text, set: &[] });
         let law = KineticLaw::ALL.into_iter().find(|law| law.name() == self.one("law"));
+        let force = |text: &str| quantity("normal-force", text, Dimension::Force);
+        let normal_forces_n = self.listed("normal-force").into_iter().map(force);
         let request = CyclicRequest {
             model: model.or(of_mass),
-            normal_force_n: self.quantity("normal-force", Dimension::Force)?,
+            normal_forces_n: &normal_forces_n.collect::<Result<Vec<f64>, _>>()?,
+            area_m2: self.quantity("area", Dimension::Area)?,
+            reference_pa: self.quantity("reference-pressure", Dimension::Pressure)?,
             slack_m: self.quantity("slack", Dimension::Length)?,
             spring: !without.contains(&"spring"),
             damper: !without.contains(&"damper"),

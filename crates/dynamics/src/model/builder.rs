@@ -4,7 +4,9 @@ use core::f64::consts::TAU;
 
 use super::{Block, Contents, Damping, Frame, InitialState, Model, Slider, Stop};
 use crate::error::ModelError;
-use crate::slider::{Bearing, Direction, Ends, Friction, RateLaw, Restoring, SurfacesInSeries};
+use crate::slider::{
+    Bearing, Direction, Ends, Friction, PressureLaw, RateLaw, Restoring, SurfacesInSeries,
+};
 use crate::units::{Dimension, STANDARD_GRAVITY_M_PER_S2, parse_quantity};
 
 /// Builds a [`Model`] from quantities with units, all that [`crate::units`] knows.
@@ -38,6 +40,7 @@ pub struct ModelBuilder {
     block_width_m: Option<f64>,
     block_height_m: Option<f64>,
     friction: Option<Friction>,
+    pressure: Option<PressureLaw>,
     restoring: Restoring,
     damper_n_s_per_m: f64,
     tilt_rad: f64,
@@ -61,6 +64,7 @@ impl Model {
             block_width_m: None,
             block_height_m: None,
             friction: None,
+            pressure: None,
             restoring: Restoring::None,
             damper_n_s_per_m: 0.0,
             tilt_rad: 0.0,
@@ -114,6 +118,32 @@ impl ModelBuilder {
     pub fn friction_by_speed(mut self, fixed: f64, law: RateLaw) -> Self {
         let friction = Friction::by_speed([fixed; 2], law).map_err(|error| self.refuse(error));
         self.friction = friction.ok();
+        self
+    }
+
+    /// Friction that falls as the pressure grows, `μ (p/reference)^(−exponent)`: the pressure under the weight alone, and the
+    /// reference at which the coefficients hold that are said beside it.
+    ///
+    /// # Examples
+    /// ```
+    /// use slipstick_dynamics::model::Model;
+    /// use slipstick_dynamics::slider::Direction;
+    ///
+    /// // Coefficients measured at 20 MPa, a bearing under 45 MPa at rest.
+    /// let model = Model::builder()
+    ///     .block("325 kg")
+    ///     .friction(0.06, 0.05)
+    ///     .pressure("45 MPa", "20 MPa", 0.2)
+    ///     .build()?;
+    /// let at_rest = model.slider().friction().map(|of| of.static_coefficient(Direction::Positive));
+    /// assert!((at_rest.unwrap_or(0.0) - 0.06 * 0.850_283).abs() < 1e-7);
+    /// # Ok::<(), slipstick_dynamics::error::ModelError>(())
+    /// ```
+    pub fn pressure(mut self, at_rest: &str, reference: &str, exponent: f64) -> Self {
+        let at_rest_pa = self.read("pressure", at_rest, Dimension::Pressure);
+        let reference_pa = self.read("reference pressure", reference, Dimension::Pressure);
+        let law = PressureLaw::new(at_rest_pa, reference_pa, exponent);
+        self.pressure = law.map_err(|error| self.refuse(error)).ok();
         self
     }
 
@@ -224,15 +254,24 @@ impl ModelBuilder {
     ///
     /// # Errors
     /// [`ModelError::Quantity`] for the first quantity that cannot be read, [`ModelError::Missing`] for
-    /// a block, friction or damping that is not said, [`ModelError::OutOfRange`] for a gap beside a stop,
-    /// otherwise as [`Model::new`] and [`Model::with_contents`].
+    /// a block, friction or damping that is not said, [`ModelError::OutOfRange`] for a gap beside a stop, or a
+    /// pressure beside surfaces in series, otherwise as [`Model::new`] and [`Model::with_contents`].
     pub fn build(self) -> Result<Model, ModelError> {
         if let Some(error) = self.refused {
             return Err(error);
         }
         let missing = |quantity, expected| ModelError::Missing { quantity, expected };
         let mass_kg = self.block_kg.ok_or(missing("block mass", "a mass with its unit"))?;
-        let bearing = match (self.series, self.friction) {
+        let friction = match (self.friction, self.pressure) {
+            (Some(friction), Some(law)) => Some(friction.under_pressure(law)?),
+            (friction, _) => friction,
+        };
+        if let (Some(_), Some(law)) = (&self.series, self.pressure) {
+            let (quantity, expected) = ("pressure", "none beside surfaces in series");
+            let found = law.at_rest_pa();
+            return Err(ModelError::OutOfRange { quantity, expected, found });
+        }
+        let bearing = match (self.series, friction) {
             (Some(series), None) if self.restoring == Restoring::None => Bearing::InSeries(series),
             (Some(_), friction) => {
                 let (quantity, found) = match (self.restoring, friction) {

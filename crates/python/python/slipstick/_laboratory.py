@@ -145,7 +145,8 @@ class Identified(_Test):
     ``tables["estimates"]`` has one row a parameter. Of cyclic tests, ``tables["cycles"]`` has one row a
     cycle and ``curves`` displacement, force and fitted force by test; where friction follows the speed,
     ``tables["friction_by_speed"]`` has what every cycle tells and ``tables["friction_curve"]`` the fitted
-    curve with its interval. Of a shaking-table record ``tables["agreement"]`` and ``curves`` are those of
+    curve with its interval; where it follows the pressure, those are ``tables["friction_by_pressure"]`` and
+    ``tables["pressure_curve"]``. Of a shaking-table record ``tables["agreement"]`` and ``curves`` are those of
     the comparison with the best values.
     """
 

@@ -24,7 +24,9 @@ def cyclic(
     tests: Measured | Sequence[Measured],
     *,
     mass: str | None = None,
-    normal_force: str | None = None,
+    normal_force: str | Sequence[str] | None = None,
+    area: str | None = None,
+    reference_pressure: str | None = None,
     model: _core.Model | None = None,
     law: Literal["coulomb", "slow-fast-rate"] | None = None,
     without: Sequence[Literal["spring", "damper"]] = (),
@@ -42,7 +44,14 @@ def cyclic(
         Mass of the block, ``"124 kg"``: friction becomes a coefficient, and ``model`` of the result a block
         with it.
     normal_force
-        Force that presses the block on its surface, ``"1200 N"``, where it is not the weight.
+        Force that presses the block on its surface, ``"1200 N"``, where it is not the weight; or one for each
+        test, ``["400 kN", "800 kN"]``.
+    area
+        Area of the bearing, ``"0.04 m2"``: from tests under several normal forces the exponent by which friction
+        follows the pressure.
+    reference_pressure
+        Pressure at which coefficients are told, ``"20 MPa"``; that of the tests next to the geometric mean of the
+        least and the largest if left out.
     model
         A model that takes what was found, in place of ``mass``.
     law

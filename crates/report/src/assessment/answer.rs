@@ -75,22 +75,9 @@ pub fn sheet(answer: &Answer, display: DisplayUnits) -> Sheet {
         }
         .sheet(),
         Results::Fragility { demand, limit, confidence, curves, .. } => {
-            let (limit, confidence) = (*limit, *confidence);
-            match curves {
-                Curves::One(run) => {
-                    FragilityReport { name, demand, limit, run, confidence, display }.sheet()
-                }
-                Curves::By { path, unit, groups } => FragilityFamily {
-                    name,
-                    by: path,
-                    by_unit: unit,
-                    groups,
-                    demand,
-                    limit,
-                    confidence,
-                    display,
-                }
-                .sheet(),
+            match fragility(name, demand, *limit, *confidence, curves, display) {
+                Fragility::One(report) => report.sheet(),
+                Fragility::By(family) => family.sheet(),
             }
         }
     };
@@ -158,48 +145,44 @@ pub fn tables(answer: Answer) -> Vec<Tabled> {
         }
         Results::Fragility { demand, limit, confidence, curves, .. } => {
             let display = DisplayUnits::Si;
-            let (name, demand) = (&answer.name[..], &demand[..]);
-            let mut table = Table::default();
-            let rows: Vec<[f64; 4]> = match &curves {
-                Curves::One(run) => {
-                    FragilityReport { name, demand, limit, run, confidence, display }.curve()
-                }
-                Curves::By { path: by, unit: by_unit, groups } => {
-                    let family = FragilityFamily {
-                        name,
-                        by,
-                        by_unit,
-                        groups,
-                        demand,
-                        limit,
-                        confidence,
-                        display,
-                    };
-                    let curves = family.curves();
-                    if curves.iter().any(|(group, _)| group.value.is_nan()) {
-                        let texts = curves.iter().map(|(group, _)| group.text.clone());
-                        table.texts(by, texts.collect());
-                    } else {
-                        let values = curves.iter().map(|(group, _)| group.value);
-                        table.numbers(by, by_unit, values.collect());
-                    }
-                    curves.into_iter().map(|(_, row)| row).collect()
-                }
+            let of = fragility(&answer.name, &demand, limit, confidence, &curves, display);
+            let table = match of {
+                Fragility::One(report) => report.table(),
+                Fragility::By(family) => family.table(),
             };
-            let unit = match &curves {
-                Curves::One(run) => Some(&**run),
-                Curves::By { groups, .. } => {
-                    groups.iter().find_map(|group| group.run.as_ref().ok())
-                }
-            };
-            let unit = unit.map_or("", |run| &run.measure_unit);
-            let column = |i: usize| rows.iter().map(|row| row[i]).collect::<Vec<_>>();
-            table
-                .numbers("level", unit, column(0))
-                .numbers("probability", "", column(1))
-                .numbers("band_low", "", column(2))
-                .numbers("band_high", "", column(3));
             vec![tabled("fragility", BOTH, table)]
         }
+    }
+}
+
+/// What a fragility is told from.
+enum Fragility<'a> {
+    One(FragilityReport<'a>),
+    By(FragilityFamily<'a>),
+}
+
+/// The report of a fragility.
+fn fragility<'a>(
+    name: &'a str,
+    demand: &'a str,
+    limit: Option<f64>,
+    confidence: f64,
+    curves: &'a Curves,
+    display: DisplayUnits,
+) -> Fragility<'a> {
+    match curves {
+        Curves::One(run) => {
+            Fragility::One(FragilityReport { name, demand, limit, run, confidence, display })
+        }
+        Curves::By { path: by, unit: by_unit, groups } => Fragility::By(FragilityFamily {
+            name,
+            by,
+            by_unit,
+            groups,
+            demand,
+            limit,
+            confidence,
+            display,
+        }),
     }
 }

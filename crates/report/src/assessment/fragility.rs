@@ -10,6 +10,7 @@ use slipstick::assessment::fragility::{
 };
 use slipstick::assessment::observed::{Data, FragilityRun};
 use slipstick::notice::NoticeKind;
+use slipstick::table::Table;
 
 use super::key::{of_measure, quantity, title};
 use super::sheet::{Sheet, cell};
@@ -91,6 +92,14 @@ impl FragilityReport<'_> {
             [x, curve.probability(x), low, high]
         };
         (0..POINTS).map(of).collect()
+    }
+
+    /// The curve as a table.
+    #[must_use]
+    pub fn table(&self) -> Table {
+        let mut table = Table::default();
+        add_curve(&mut table, &self.run.measure_unit, &self.curve());
+        table
     }
 
     /// The result laid out.
@@ -429,6 +438,15 @@ impl FragilityReport<'_> {
             #[serde(flatten)] cloud,
             curve: self.curve(),
         }
+    }
+}
+
+/// The columns of a curve over intensities in a unit.
+fn add_curve(table: &mut Table, unit: &str, rows: &[[f64; 4]]) {
+    let column = |i: usize| rows.iter().map(|row| row[i]).collect::<Vec<f64>>();
+    table.numbers("level", unit, column(0));
+    for (i, name) in ["probability", "band_low", "band_high"].into_iter().enumerate() {
+        table.numbers(name, "", column(i + 1));
     }
 }
 

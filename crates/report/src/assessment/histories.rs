@@ -9,7 +9,6 @@ use serde::Serialize;
 use slipstick::assessment::FailedRun;
 use slipstick::assessment::code::{Plan, PropertyFactors};
 use slipstick::assessment::histories::{Histories, ModelHistories, OnRecord, RECORDS_OF_A_MEAN};
-use slipstick::assessment::lateral::LEAST_TOTAL;
 use slipstick::assessment::suite::{Recorded, condensed};
 use slipstick::input::Bound;
 use slipstick::notice::{Notice, NoticeKind};
@@ -17,10 +16,11 @@ use slipstick::response::{DemandColumn, DemandOf};
 use slipstick::study::USUAL_FACTORS;
 use slipstick::table::{self, Column};
 
+use self::code::{LATERAL, LateralFigure};
 use super::pairs;
 use super::sheet::{Sheet, cell, failed, record_table};
 use crate::display::{DisplayUnits, Quantity, Unit};
-use crate::json::{cell_values, each, pretty};
+use crate::json::{Members, cell_values, each, pretty};
 use crate::number::compact;
 use crate::view;
 
@@ -491,7 +491,7 @@ impl HistoriesReport<'_> {
             let each = model.bounds.iter().zip(&model.lateral);
             each.filter_map(|(bound, found)| Some((&model.name, bound, found.as_ref()?)))
         });
-        let total = self.plan.map_or(LEAST_TOTAL, |plan| plan.total_over_displacement());
+        let total = self.total_over_displacement();
         view! {
             models: each(models, |model| &model.name),
             scaled: self.scaled.trim(),
@@ -499,15 +499,11 @@ impl HistoriesReport<'_> {
             runs: columns(&self.histories.runs),
             governing: columns(&self.histories.governing),
             lateral_force: each(of_bounds, |(model, bound, found)| {
+                let figure = |of: &LateralFigure| (of.key, (of.value)(found, total));
                 view! {
                     model,
                     friction: bound.name,
-                    displacement_m: found.displacement_m,
-                    total_displacement_m: total * found.displacement_m,
-                    stiffness_n_per_m: found.stiffness_n_per_m,
-                    damping_ratio: found.damping_ratio,
-                    damping_factor: found.damping_factor,
-                    period_s: found.period_s,
+                    #[serde(flatten)] figures: Members(each(&LATERAL, figure)),
                     passes: found.passes.map(|(what, _)| what),
                     passes_m: found.passes.map(|(_, reach_m)| reach_m),
                 }

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use slipstick::input::Channel;
-use slipstick::laboratory::compare::{Compared, Comparison, Metrics, Within};
+use slipstick::laboratory::compare::{Compared, Comparison, Metric, Metrics, Within};
 use slipstick::model::Model;
 use slipstick::response::{Method, Mode};
 use slipstick::units::Dimension;
@@ -61,32 +61,6 @@ pub(super) fn title(channel: Channel) -> String {
     letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// A figure of agreement: its key in JSON, its name in tables (empty where it has no row), whether it has the unit
-/// of the quantity, and its value.
-type Agreement = (&'static str, &'static str, bool, fn(&Metrics) -> Option<f64>);
-
-const AGREEMENT: [Agreement; 17] = [
-    ("measured_peak", "Measured peak", true, |m| Some(m.measured_peak)),
-    ("measured_peak_time_s", "", false, |m| Some(m.measured_peak_time_s)),
-    ("predicted_peak", "Predicted peak", true, |m| Some(m.predicted_peak)),
-    ("predicted_peak_time_s", "", false, |m| Some(m.predicted_peak_time_s)),
-    ("peak_ratio", "Peak ratio (predicted/measured)", false, |m| m.peak_ratio),
-    ("measured_residual", "Measured at the end", true, |m| Some(m.measured_residual)),
-    ("predicted_residual", "Predicted at the end", true, |m| Some(m.predicted_residual)),
-    ("residual_error", "Error at the end", true, |m| Some(m.residual_error)),
-    ("measured_rms", "RMS, measured", true, |m| Some(m.measured_rms)),
-    ("rms_error", "RMS of the error", true, |m| Some(m.rms_error)),
-    ("normalised_rms_error", "  over the RMS measured", false, |m| m.normalised_rms_error),
-    ("correlation", "Correlation", false, |m| m.correlation),
-    ("russell_magnitude", "Russell: magnitude error", false, |m| Some(m.russell?.magnitude)),
-    ("russell_phase", "Russell: phase error", false, |m| Some(m.russell?.phase)),
-    ("russell_comprehensive", "Russell: comprehensive error", false, |m| {
-        Some(m.russell?.comprehensive)
-    }),
-    ("arrival_lag_s", "Arrival lag (s)", false, |m| m.arrival_lag_s),
-    ("correlation_at_lag", "", false, |m| m.lagged_correlation),
-];
-
 impl CompareReport<'_> {
     /// The value of a bounded figure.
     fn value(&self, within: &Within) -> Option<f64> {
@@ -129,11 +103,12 @@ impl CompareReport<'_> {
             row("", &|c, _| title(c.pair.channel)),
             row("Unit", &|_, unit| unit.symbol.to_owned()),
         ];
-        let told = AGREEMENT.iter().filter(|(_, name, ..)| !name.is_empty());
-        rows.extend(told.map(|(_, name, has_unit, value)| {
-            row(name, &|c, unit| {
-                let shown = |value| if *has_unit { unit.of(value) } else { value };
-                value(&c.metrics).map_or("n/a".to_owned(), |value| significant(shown(value), 4))
+        let told = Metrics::ALL.iter().filter_map(|figure| Some((figure.title?, figure)));
+        rows.extend(told.map(|(title, figure)| {
+            row(title, &|c, unit| {
+                let shown = |value| if figure.unit.is_none() { unit.of(value) } else { value };
+                let value = (figure.value)(&c.metrics);
+                value.map_or("n/a".to_owned(), |value| significant(shown(value), 4))
             })
         }));
         if all.iter().any(|c| c.metrics.anderson.is_some()) {
@@ -198,10 +173,12 @@ impl CompareReport<'_> {
             dt_s: c.motion.dt_s(),
             table_peak_acceleration_m_per_s2: c.motion.figures().pga_m_per_s2,
             quantities: each(&c.compared, |Compared { pair, metrics: m, .. }| {
-                let figures =
-                    |of: &[Agreement]| Members(each(of, |(key, .., value)| (*key, value(m))));
-                // Anderson's scores stand before the lag.
-                let (before, lag) = AGREEMENT.split_at(AGREEMENT.len() - 2);
+                let figures = |of: &[Metric]| {
+                    Members(each(of, |figure| (figure.key, (figure.value)(m))))
+                };
+                // Where tables have the mean of Anderson's scores stand all of them.
+                let all = &Metrics::ALL;
+                let scores = all.iter().take_while(|figure| figure.key != Metrics::ANDERSON).count();
                 view! {
                     quantity: pair.channel.name(),
                     unit: pair.channel.dimension().si_unit(),
@@ -210,11 +187,11 @@ impl CompareReport<'_> {
                     samples_not_interpolated: pair.at_samples,
                     from_s: pair.times_s.first(),
                     to_s: pair.times_s.last(),
-                    #[serde(flatten)] figures: figures(before),
+                    #[serde(flatten)] figures: figures(&all[..scores]),
                     anderson_whole_band: m.anderson.map(|a| {
                         Members(a.scores().into_iter().chain([("mean", a.mean())]).collect())
                     }),
-                    #[serde(flatten)] lag: figures(lag),
+                    #[serde(flatten)] lag: figures(&all[scores + 1..]),
                 }
             }),
             within: each(self.within, |bound| {

@@ -2,14 +2,15 @@
 
 use serde::Serialize;
 use slipstick::laboratory::cyclic::{
-    AtSpeed, CurvePoint, Cycle, CyclicEstimates, CyclicFit, RateFit, means,
+    AtSpeed, CurvePoint, Cycle, CycleCell, CycleColumn, CyclicEstimates, CyclicFit, PressureFit,
+    PressurePoint, RateFit, means,
 };
 
 use super::identify::estimate_json;
 use crate::assessment::lines::{BAND, band, dots, laid, line, panel, single};
 use crate::display::{DisplayUnits, Quantity};
 use crate::figures::Drawn;
-use crate::json::each;
+use crate::json::{Members, each};
 use crate::number::significant;
 use crate::plot::{Axis, Layout, Limit, Panel, PlotSeries, Style};
 use crate::view;
@@ -25,15 +26,24 @@ pub struct Test<'a> {
     pub force_n: &'a [f64],
     /// What it says.
     pub fit: &'a CyclicFit,
+    /// Force that presses the block on its surface in N, where it is known.
+    pub normal_n: Option<f64>,
 }
 
 /// What the intervals assume.
 #[must_use]
-pub fn assumption(by_speed: bool) -> String {
-    let speed = if by_speed {
+pub fn assumption(found: &CyclicEstimates) -> String {
+    let speed = if found.rate.is_some() {
         " Slow and fast friction and the rate are those of the curve μ = fast − (fast − slow) e^(−rate |v|) \
          through all cycles, which count alike; their intervals are profiles of its sum of squares, scaled \
          to the scatter of the cycles. A damper is not fitted beside it."
+    } else {
+        ""
+    };
+    let pressure = if found.pressure.as_ref().is_some_and(|law| law.exponent.value().is_some()) {
+        " The exponent of the pressure is that of μ(p) = μ (p/reference)^(−exponent) through all cycles, fitted \
+         together with the kinetic friction; coefficients are those at the reference pressure, and their intervals \
+         include that of the exponent."
     } else {
         ""
     };
@@ -41,48 +51,72 @@ pub fn assumption(by_speed: bool) -> String {
         "Means over cycles with Student's 95 % interval: cycles are taken as independent, nothing is \
          assumed of the noise within one. The static friction of a test whose samples fall on the same \
          part of every cycle is known to half a step of the force before breakaway, which its interval \
-         includes.{speed}"
+         includes.{speed}{pressure}"
     )
 }
 
-/// Other figures of some tests.
+/// Other figures of some tests; with the pressure under the weight of the model, where it is known.
 #[must_use]
-pub fn facts(tests: &[Test], normal_force_n: Option<f64>) -> Vec<(&'static str, String)> {
+pub fn facts(
+    tests: &[Test],
+    found: &CyclicEstimates,
+    at_rest_pa: Option<f64>,
+) -> Vec<(&'static str, String)> {
     let cycles: usize = tests.iter().map(|test| test.fit.cycles.len()).sum();
     let left_out: usize = tests.iter().map(|test| test.fit.strokes_left_out).sum();
     let slack = tests.iter().map(|test| test.fit.slack_m).fold(0.0, f64::max);
     let hz = || tests.iter().flat_map(|test| test.fit.cycles.iter().map(|c| c.frequency_hz));
     let (low, high) = hz().fold((f64::INFINITY, 0.0_f64), |(l, h), f| (l.min(f), h.max(f)));
-    vec![
+    let forces_n = || tests.iter().filter_map(|test| test.normal_n);
+    let (least, largest) =
+        forces_n().fold((f64::INFINITY, 0.0_f64), |(l, h), n| (l.min(n), h.max(n)));
+    let normal_force = match forces_n().next() {
+        None => "not given: friction is a force".to_owned(),
+        Some(_) if least == largest => format!("{} N", significant(largest, 6)),
+        Some(_) => {
+            let [least, largest] = [least, largest].map(|n| significant(1e-3 * n, 4));
+            format!("{least} to {largest} kN")
+        }
+    };
+    let mut facts = vec![
         ("Cycles", format!("{cycles} complete; {left_out} strokes incomplete or short, left out")),
         ("Frequency", format!("{} to {} Hz", significant(low, 3), significant(high, 3))),
         (
             "Travel left out after each reversal",
             format!("{} mm (friction builds up)", significant(1e3 * slack, 3)),
         ),
-        (
-            "Normal force",
-            normal_force_n.map_or("not given: friction is a force".to_owned(), |n| {
-                format!("{} N", significant(n, 6))
-            }),
-        ),
-    ]
+        ("Normal force", normal_force),
+    ];
+    let megapascals = |pa: f64| format!("{} MPa", significant(1e-6 * pa, 4));
+    if let Some(law) = &found.pressure {
+        facts.push(("Pressure of the coefficients", megapascals(law.reference_pa)));
+        let tested = law.pressures_pa.iter();
+        let [low, high] = tested.fold([f64::INFINITY, 0.0], |[l, h], pa| [pa.min(l), pa.max(h)]);
+        facts.extend(at_rest_pa.map(|pa| {
+            let outside = if (low..=high).contains(&pa) { "" } else { ", outside of those tested" };
+            ("Pressure under the weight of the model", format!("{}{outside}", megapascals(pa)))
+        }));
+    }
+    facts
 }
 
-/// A row a test: its estimates, without their intervals.
+/// A row a test: its estimates; with its normal force and pressure where friction was taken to follow it.
 #[must_use]
-pub fn by_test(tests: &[Test], normal_force_n: Option<f64>) -> Vec<Vec<String>> {
-    let mut rows = vec![
-        ["Test", "f (Hz)", "cycles", "kinetic", "95 % from", "to", "static", "95 % from", "to"]
-            .map(str::to_owned)
-            .to_vec(),
-    ];
-    for test in tests {
+pub fn by_test(tests: &[Test], pressure: Option<&PressureFit>) -> Vec<Vec<String>> {
+    let loads: &[&str] = if pressure.is_some() { &["N (kN)", "p (MPa)"] } else { &[] };
+    let friction = ["kinetic", "95 % from", "to", "static", "95 % from", "to"];
+    let heads = [&["Test", "f (Hz)", "cycles"], loads, &friction[..]].concat();
+    let mut rows = vec![heads.into_iter().map(str::to_owned).collect::<Vec<String>>()];
+    for (i, test) in tests.iter().enumerate() {
         let largest_n = test.force_n.iter().fold(0.0, |m: f64, f| m.max(f.abs()));
-        let found = means(&[test.fit], largest_n, normal_force_n).estimates;
+        let found = means(&[test.fit], largest_n, test.normal_n).estimates;
         let cycles = &test.fit.cycles;
         let hz = cycles.iter().map(|c| c.frequency_hz).sum::<f64>() / cycles.len().max(1) as f64;
         let mut row = vec![test.name.to_owned(), significant(hz, 3), cycles.len().to_string()];
+        if let Some(pa) = pressure.and_then(|law| law.pressures_pa.get(i)) {
+            let load = [1e-3 * test.normal_n.unwrap_or(f64::NAN), 1e-6 * pa];
+            row.extend(load.map(|value| significant(value, 4)));
+        }
         // Both ways together stand before each way.
         for what in ["slider.kinetic_friction", "slider.static_friction"] {
             let both = found.iter().find(|estimate| estimate.path.starts_with(what));
@@ -96,20 +130,25 @@ pub fn by_test(tests: &[Test], normal_force_n: Option<f64>) -> Vec<Vec<String>> 
     rows
 }
 
-/// A row a cycle.
+/// A row a cycle; friction over the normal force of its test.
 #[must_use]
-pub fn table(tests: &[Test], normal_force_n: Option<f64>) -> Vec<Vec<String>> {
-    let over = normal_force_n.unwrap_or(1.0);
-    let unit = if normal_force_n.is_some() { "" } else { " (N)" };
+pub fn table(tests: &[Test]) -> Vec<Vec<String>> {
+    let unit = if tests.iter().all(|test| test.normal_n.is_some()) { "" } else { " (N)" };
     // Without the zeros of the sensors the two ways cannot be told apart.
     let by_way = tests.iter().all(|test| test.fit.zero_known && test.fit.drift.is_none());
-    let ways: &[&str] = if by_way { &[" +x", " −x"] } else { &[""] };
-    let mut heads = ["Cycle", "f (Hz)", "stroke (mm)"].map(str::to_owned).to_vec();
-    for what in ["kinetic", "static"] {
-        heads.extend(ways.iter().map(|way| format!("{what}{way}{unit}")));
-    }
-    heads.extend(["spring (N/m)", "damper (N s/m)", "rms left (N)"].map(str::to_owned));
-    let mut rows = vec![heads];
+    let head = |column: &CycleColumn| match column.shown {
+        CycleCell::None => None,
+        CycleCell::Number { head, .. } => Some(head.to_owned()),
+        CycleCell::Friction { head, is_positive: true } if by_way => {
+            Some(format!("{head} +x{unit}"))
+        }
+        CycleCell::Friction { head, is_positive: false } if by_way => {
+            Some(format!("{head} −x{unit}"))
+        }
+        CycleCell::Friction { head, is_positive } => is_positive.then(|| format!("{head}{unit}")),
+    };
+    let heads = core::iter::once("Cycle".to_owned());
+    let mut rows = vec![heads.chain(Cycle::COLUMNS.iter().filter_map(head)).collect::<Vec<_>>()];
     for (number, test) in tests.iter().enumerate() {
         for (index, cycle) in test.fit.cycles.iter().enumerate() {
             let label = if tests.len() > 1 {
@@ -117,27 +156,34 @@ pub fn table(tests: &[Test], normal_force_n: Option<f64>) -> Vec<Vec<String>> {
             } else {
                 (index + 1).to_string()
             };
-            rows.push(row(label, cycle, over, by_way));
+            let over = test.normal_n.unwrap_or(1.0);
+            rows.push(core::iter::once(label).chain(cells(cycle, over, by_way)).collect());
         }
     }
     rows
 }
 
-fn row(label: String, cycle: &Cycle, over: f64, by_way: bool) -> Vec<String> {
-    let digits = |value: f64| significant(value, 4);
-    let maybe = |value: Option<f64>| value.map_or("none".to_owned(), digits);
-    let mut row = vec![label, digits(cycle.frequency_hz), digits(1e3 * cycle.stroke_m)];
-    for ways in [cycle.kinetic_n.map(Some), cycle.static_n] {
-        if by_way {
-            row.extend(ways.map(|way| maybe(way.map(|f| f / over))));
-        } else {
-            let both = ways[0].zip(ways[1]).map(|(a, b)| 0.5 * (a + b) / over);
-            row.push(maybe(both));
+/// The cells of a cycle, its friction over a normal force.
+fn cells(cycle: &Cycle, over: f64, by_way: bool) -> Vec<String> {
+    let shown = |value: Option<f64>, digits: usize| {
+        value.map_or("none".to_owned(), |value| significant(value, digits))
+    };
+    let cell = move |(i, column): (usize, &CycleColumn)| {
+        let value = (column.value)(cycle);
+        match column.shown {
+            CycleCell::None => None,
+            CycleCell::Number { factor, digits, .. } => {
+                Some(shown(value.map(|value| factor * value), digits))
+            }
+            CycleCell::Friction { .. } if by_way => Some(shown(value.map(|f| f / over), 4)),
+            CycleCell::Friction { is_positive: false, .. } => None,
+            CycleCell::Friction { .. } => {
+                let other = Cycle::COLUMNS.get(i + 1).and_then(|other| (other.value)(cycle));
+                Some(shown(value.zip(other).map(|(a, b)| 0.5 * (a + b) / over), 4))
+            }
         }
-    }
-    row.extend([cycle.spring_n_per_m, cycle.damper_n_s_per_m].map(maybe));
-    row.push(significant(cycle.residual_n, 3));
-    row
+    };
+    Cycle::COLUMNS.iter().enumerate().filter_map(cell).collect()
 }
 
 /// What only this job has in its JSON object; `slider_keys` are those for the model file.
@@ -145,29 +191,33 @@ fn row(label: String, cycle: &Cycle, over: f64, by_way: bool) -> Vec<String> {
 pub fn json(
     tests: &[Test],
     found: &CyclicEstimates,
+    at_rest_pa: Option<f64>,
     slider_keys: Option<String>,
 ) -> impl Serialize {
+    let at_pressure = |point: &PressurePoint| {
+        let ([low, high], PressurePoint { pressure_pa, friction, .. }) = (point.interval, *point);
+        view! { pressure_pa, kinetic_friction: friction, low, high }
+    };
+    let pressure = found.pressure.as_ref().map(|law| {
+        let loads = tests.iter().zip(&law.pressures_pa);
+        let pressure = view! {
+            reference_pa: law.reference_pa,
+            at_rest_pa,
+            tests: each(loads, |(Test { name, normal_n, .. }, pressure_pa)| {
+                view! { file: *name, normal_force_n: *normal_n, pressure_pa: *pressure_pa }
+            }),
+            curve: each(&law.curve, at_pressure),
+        };
+        view! { pressure }
+    });
     let by_speed = |at: &AtSpeed| {
         let [kinetic_positive_n, kinetic_negative_n] = at.kinetic_n;
         view! { speed_m_per_s: at.speed_m_per_s, kinetic_positive_n, kinetic_negative_n }
     };
     let cycle = |cycle: &Cycle| {
-        let [from_s, to_s] = cycle.span_s;
-        let [kinetic_positive_n, kinetic_negative_n] = cycle.kinetic_n;
-        let [static_positive_n, static_negative_n] = cycle.static_n;
+        let figure = |column: &CycleColumn| (column.key, (column.value)(cycle));
         view! {
-            from_s,
-            to_s,
-            frequency_hz: cycle.frequency_hz,
-            stroke_m: cycle.stroke_m,
-            peak_velocity_m_per_s: cycle.peak_velocity_m_per_s,
-            kinetic_positive_n,
-            kinetic_negative_n,
-            static_positive_n,
-            static_negative_n,
-            spring_n_per_m: cycle.spring_n_per_m,
-            damper_n_s_per_m: cycle.damper_n_s_per_m,
-            residual_n: cycle.residual_n,
+            #[serde(flatten)] figures: Members(each(&Cycle::COLUMNS, figure)),
             by_speed: each(&cycle.by_speed, by_speed),
         }
     };
@@ -180,6 +230,7 @@ pub fn json(
         law: tests.first().map(|test| test.fit.law.name()),
         friction_curve: found.rate.as_ref().map(|rate| each(&rate.curve, point)),
         frequency_dependence: found.per_hz.as_ref().map(estimate_json),
+        #[serde(flatten)] pressure,
         tests: each(tests, |Test { name, fit, .. }| {
             view! {
                 file: *name,
@@ -192,27 +243,33 @@ pub fn json(
     }
 }
 
-/// Kinetic friction over sliding speed: what every cycle tells, and the fitted curve with its interval.
+/// Kinetic friction over sliding speed: what every cycle tells, at the reference pressure where there is one, and the
+/// fitted curve with its interval.
 #[must_use]
 pub fn by_speed(
     tests: &[Test],
     rate: &RateFit,
+    pressure: Option<&PressureFit>,
     static_friction: Option<f64>,
-    normal_force_n: Option<f64>,
     display: DisplayUnits,
 ) -> Drawn {
-    let over_n = normal_force_n.unwrap_or(1.0);
-    let cycles = || tests.iter().flat_map(|test| &test.fit.cycles);
-    let measured: Vec<[f64; 2]> = cycles()
-        .flat_map(|cycle| &cycle.by_speed)
-        .map(|at| [at.speed_m_per_s, 0.5 * (at.kinetic_n[0] + at.kinetic_n[1]) / over_n])
-        .collect();
+    let is_coefficient = tests.iter().all(|test| test.normal_n.is_some());
+    let over_n = |(i, test): (usize, &Test)| {
+        test.normal_n.unwrap_or(1.0) * pressure.map_or(1.0, |law| law.factor(i))
+    };
+    let of_test = tests.iter().enumerate().flat_map(|(i, test)| {
+        let over_n = over_n((i, test));
+        let all = test.fit.cycles.iter().flat_map(|cycle| &cycle.by_speed);
+        all.map(move |at| [at.speed_m_per_s, 0.5 * (at.kinetic_n[0] + at.kinetic_n[1]) / over_n])
+    });
+    let measured: Vec<[f64; 2]> = of_test.collect();
     let largest = measured.iter().fold([0.0; 2], |[v, f]: [f64; 2], m| [v.max(m[0]), f.max(m[1])]);
     let speed = display.unit(Quantity::Velocity, largest[0]);
     let force = display.unit(Quantity::Force, largest[1]);
-    let (friction, label) = match normal_force_n {
-        Some(_) => (display.unit(Quantity::Ratio, 1.0), "Coefficient of friction".to_owned()),
-        None => (force, force.label("Friction")),
+    let (friction, label) = if is_coefficient {
+        (display.unit(Quantity::Ratio, 1.0), "Coefficient of friction".to_owned())
+    } else {
+        (force, force.label("Friction"))
     };
     let shown = |[v, f]: [f64; 2]| [speed.of(v), friction.of(f)];
     let curve = &rate.curve;
@@ -250,6 +307,42 @@ pub fn by_speed(
                    and the fitted curve with its 95 % interval."
             .to_owned();
     single("friction-by-speed", "Kinetic friction over sliding speed", caption, panel)
+}
+
+/// Kinetic friction over pressure: what every cycle tells, and the fitted law with its interval; none where the exponent
+/// was not determined.
+#[must_use]
+pub fn by_pressure(law: &PressureFit, over_reference: bool) -> Option<Drawn> {
+    let (first, last) = (law.curve.first()?, law.curve.last()?);
+    let shown = |point: &PressurePoint| [1e-6 * point.pressure_pa, point.friction];
+    let x: Vec<f64> = law.curve.iter().map(|point| 1e-6 * point.pressure_pa).collect();
+    let [low, high] =
+        [0, 1].map(|end| law.curve.iter().map(|p| p.interval[end]).collect::<Vec<f64>>());
+    let series = vec![
+        band(&x, &low, &high, "95 % interval of the curve", BAND),
+        line("fitted", Style::MAIN, law.curve.iter().map(shown).collect()),
+        dots(
+            "measured, a cycle",
+            Style { width: 0.4, ..Style::WIDE },
+            Style::WIDE.colour,
+            law.cycles.iter().map(shown).collect(),
+        ),
+    ];
+    let values = series.iter().flat_map(|s| s.points.iter().map(|point| point[1]));
+    let values: Vec<f64> = values.collect();
+    let [from, to] = [first.pressure_pa / 1.2, 1.2 * last.pressure_pa].map(|pa| 1e-6 * pa);
+    let label = match over_reference {
+        true => "Friction over that at the reference",
+        false => "Coefficient of friction",
+    };
+    let along = Axis::logarithmic("Pressure (MPa)".to_owned(), from, to);
+    let panel = panel(along, Axis::covering(label.to_owned(), values), 210.0, series);
+    let caption = format!(
+        "Kinetic friction over the pressure: what every cycle tells (mean of both ways), and the fitted law with its \
+         95 % interval. Coefficients are those at {} MPa.",
+        significant(1e-6 * law.reference_pa, 4)
+    );
+    Some(single("friction-by-pressure", "Kinetic friction over pressure", caption, panel))
 }
 
 /// One figure a test: measured loops with the fitted strokes, and friction by cycle.

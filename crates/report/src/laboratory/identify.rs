@@ -110,32 +110,36 @@ fn of_job(
     display: DisplayUnits,
 ) -> OfJob {
     match &identified.found {
-        Fitted::Cyclic { fits, together, normal_force_n } => {
-            let tests = measured.iter().zip(fits).filter_map(|(measured, fit)| {
+        Fitted::Cyclic { fits, together, normal_forces_n, at_rest_pa } => {
+            let tests = measured.iter().zip(fits).enumerate().filter_map(|(i, (measured, fit))| {
                 let [displacement, force] = cyclic_histories(measured).ok()?;
                 let (displacement_m, force_n) = (&displacement.values, &force.values);
                 let name = measured.source_name.as_str();
-                Some(cyclic::Test { name, displacement_m, force_n, fit })
+                let normal_n = normal_forces_n.as_ref().and_then(|all| all.get(i).copied());
+                Some(cyclic::Test { name, displacement_m, force_n, fit, normal_n })
             });
             let tests: Vec<cyclic::Test<'_>> = tests.collect();
-            let normal_n = *normal_force_n;
-            let mut tables = vec![("Cycle by cycle".to_owned(), cyclic::table(&tests, normal_n))];
-            let friction = together.rate.as_ref().map(|rate| {
+            let mut tables = vec![("Cycle by cycle".to_owned(), cyclic::table(&tests))];
+            let law = together.pressure.as_ref();
+            let by_speed = together.rate.as_ref().map(|rate| {
                 let limit = identified.estimates.iter().find(|e| e.path.contains("static"));
-                cyclic::by_speed(&tests, rate, limit.and_then(Estimate::value), normal_n, display)
+                cyclic::by_speed(&tests, rate, law, limit.and_then(Estimate::value), display)
             });
+            let by_pressure = law.and_then(|law| cyclic::by_pressure(law, together.rate.is_some()));
             if tests.len() > 1 {
-                let unit = if normal_n.is_some() { "" } else { " (N)" };
-                let rows = cyclic::by_test(&tests, normal_n);
+                let unit = if normal_forces_n.is_some() { "" } else { " (N)" };
+                let rows = cyclic::by_test(&tests, law);
                 tables.insert(0, (format!("Test by test{unit}"), rows));
             }
+            let keys = identified.slider_keys();
+            let friction = by_speed.into_iter().chain(by_pressure);
             OfJob {
                 job: "cyclic",
-                json: pretty(&cyclic::json(&tests, together, identified.slider_keys())),
-                facts: cyclic::facts(&tests, normal_n),
+                json: pretty(&cyclic::json(&tests, together, *at_rest_pa, keys)),
+                facts: cyclic::facts(&tests, together, *at_rest_pa),
                 tables,
-                assumption: cyclic::assumption(together.rate.is_some()),
-                figures: friction.into_iter().chain(cyclic::figures(&tests, display)).collect(),
+                assumption: cyclic::assumption(together),
+                figures: friction.chain(cyclic::figures(&tests, display)).collect(),
             }
         }
         Fitted::FreeVibration { channel, times_s, values, fit } => {

@@ -7,7 +7,7 @@ use crate::input::Channel;
 /// A bound on one figure of one quantity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Within {
-    /// One of [`Metrics::NAMES`].
+    /// One of [`Metrics::names`].
     pub metric: &'static str,
     /// The quantity.
     pub channel: Channel,
@@ -33,9 +33,10 @@ impl Within {
         let form = || fault("METRIC.QUANTITY=LEAST..MOST".to_owned(), text, None);
         let (what, range) = text.split_once('=').ok_or_else(form)?;
         let (metric, quantity) = what.trim().split_once('.').ok_or_else(form)?;
-        let known = Metrics::NAMES.into_iter().find(|name| *name == metric).ok_or_else(|| {
-            let expected = format!("one of the figures {}", Metrics::NAMES.join(", "));
-            fault(expected, metric, similar(metric, Metrics::NAMES.into_iter()))
+        let known = Metrics::names().find(|name| *name == metric).ok_or_else(|| {
+            let names: Vec<&str> = Metrics::names().collect();
+            let expected = format!("one of the figures {}", names.join(", "));
+            fault(expected, metric, similar(metric, names.into_iter()))
         })?;
         let channel = Channel::parse(quantity).ok_or_else(|| {
             let names = [

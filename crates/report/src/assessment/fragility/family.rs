@@ -2,8 +2,9 @@
 
 use slipstick::assessment::observed::{Averaged, FragilityGroup, FragilityRun};
 use slipstick::notice::{Notice, NoticeKind};
+use slipstick::table::Table;
 
-use super::{FragilityReport, POINTS};
+use super::{FragilityReport, POINTS, add_curve};
 use crate::assessment::key::group_value;
 use crate::assessment::lines::{GROUPS, line, panel, single};
 use crate::assessment::sheet::{Sheet, cell};
@@ -60,13 +61,25 @@ impl FragilityFamily<'_> {
         format!("{} {}", compact(group.value), self.by_unit).trim_end().to_owned()
     }
 
-    /// Rows of the curves: the value, intensity, probability and band.
+    /// The curves as a table, below one another, each row with the value of its curve.
     #[must_use]
-    pub fn curves(&self) -> Vec<(&FragilityGroup, [f64; 4])> {
+    pub fn table(&self) -> Table {
         let of = |(group, report): (_, FragilityReport<'_>)| {
             report.curve().into_iter().map(move |row| (group, row)).collect::<Vec<_>>()
         };
-        self.reports().into_iter().flat_map(of).collect()
+        let curves: Vec<(&FragilityGroup, [f64; 4])> =
+            self.reports().into_iter().flat_map(of).collect();
+        let mut table = Table::default();
+        if curves.iter().any(|(group, _)| group.value.is_nan()) {
+            table.texts(self.by, curves.iter().map(|(group, _)| group.text.clone()).collect());
+        } else {
+            let values = curves.iter().map(|(group, _)| group.value);
+            table.numbers(self.by, self.by_unit, values.collect());
+        }
+        let unit = self.reports().first().map_or("", |(_, first)| &first.run.measure_unit);
+        let rows: Vec<[f64; 4]> = curves.into_iter().map(|(_, row)| row).collect();
+        add_curve(&mut table, unit, &rows);
+        table
     }
 
     /// The result laid out; empty where no value has a fragility.
@@ -120,7 +133,7 @@ impl FragilityFamily<'_> {
                 .take(6)
                 .collect(),
             warnings,
-            tables: vec![self.table(&reports, unit)],
+            tables: vec![self.parameters(&reports, unit)],
             figures: vec![self.figure(&reports, unit)],
             method: first.method(),
             complete: reports.iter().all(|(_, report)| report.complete()),
@@ -129,7 +142,8 @@ impl FragilityFamily<'_> {
         }
     }
 
-    fn table(
+    /// A row a curve.
+    fn parameters(
         &self,
         reports: &[(&FragilityGroup, FragilityReport<'_>)],
         unit: Unit,

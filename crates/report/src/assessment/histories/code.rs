@@ -11,6 +11,72 @@ use super::{HistoriesReport, SHOWN};
 use crate::assessment::sheet::{SheetTable, cell};
 use crate::display::Quantity;
 
+/// A figure of the equivalent lateral force: one description for JSON and the table.
+pub(super) struct LateralFigure {
+    /// Its key in JSON.
+    pub key: &'static str,
+    /// What the row of it is called, without the unit of a quantity.
+    title: &'static str,
+    shown: LateralUnit,
+    /// In SI, with the total displacement over `D_M`.
+    pub value: fn(&LateralForce, f64) -> f64,
+}
+
+/// How a figure is shown.
+enum LateralUnit {
+    /// In the unit of its quantity.
+    Of(Quantity),
+    /// As it is.
+    Plain,
+    /// A ratio in percent.
+    Percent,
+}
+
+/// The displacements, then the isolators at them.
+pub(super) const LATERAL: [LateralFigure; 6] = [
+    LateralFigure {
+        key: "displacement_m",
+        title: "Displacement D_M",
+        shown: LateralUnit::Of(Quantity::Length),
+        value: |found, _| found.displacement_m,
+    },
+    LateralFigure {
+        key: TOTAL,
+        title: "1.15 D_M, the least D_TM",
+        shown: LateralUnit::Of(Quantity::Length),
+        value: |found, total| total * found.displacement_m,
+    },
+    LateralFigure {
+        key: "stiffness_n_per_m",
+        title: "Effective stiffness k_M",
+        shown: LateralUnit::Of(Quantity::Stiffness),
+        value: |found, _| found.stiffness_n_per_m,
+    },
+    LateralFigure {
+        key: "damping_ratio",
+        title: "Effective damping β_M (%)",
+        shown: LateralUnit::Percent,
+        value: |found, _| found.damping_ratio,
+    },
+    LateralFigure {
+        key: "damping_factor",
+        title: "Damping factor B_M",
+        shown: LateralUnit::Plain,
+        value: |found, _| found.damping_factor,
+    },
+    LateralFigure {
+        key: "period_s",
+        title: "Effective period T_M (s)",
+        shown: LateralUnit::Plain,
+        value: |found, _| found.period_s,
+    },
+];
+
+/// The total displacement, whose row says how it follows from `D_M` where a plan tells it.
+const TOTAL: &str = "total_displacement_m";
+/// How many of them are displacements.
+const DISPLACEMENTS: usize = 2;
+
 /// Something that isolators, or what stands on them, can take.
 struct Capacity {
     name: String,
@@ -131,63 +197,61 @@ impl HistoriesReport<'_> {
         Some(Notice::new(NoticeKind::LateralBeyondTravel, message))
     }
 
+    /// The total displacement over `D_M`.
+    pub(super) fn total_over_displacement(&self) -> f64 {
+        self.plan.map_or(LEAST_TOTAL, |plan| plan.total_over_displacement())
+    }
+
     /// The equivalent-lateral-force displacement with each bound, beside that of the runs.
     pub(super) fn lateral(&self, model: &ModelHistories) -> Option<(String, Vec<Vec<String>>)> {
         let found = model.lateral.iter().flatten();
         let largest = found.clone().map(|found| found.displacement_m).reduce(f64::max)?;
         let stiffest = found.map(|found| found.stiffness_n_per_m).fold(0.0, f64::max);
-        let (length, stiffness) = (
-            self.display.unit(Quantity::Length, largest),
-            self.display.unit(Quantity::Stiffness, stiffest),
-        );
-        let total = self.plan.map_or(LEAST_TOTAL, |plan| plan.total_over_displacement());
+        let length = self.display.unit(Quantity::Length, largest);
+        let unit = |quantity: Quantity| match quantity {
+            Quantity::Length => length,
+            other => self.display.unit(other, stiffest),
+        };
+        let total = self.total_over_displacement();
         let peak = model.shape().find(SHOWN[0])?.1;
         let runs = |bound: usize| model.governing(&peak, bound);
-        type Value<'b> = Box<dyn Fn(&LateralForce, usize) -> f64 + 'b>;
-        let mut rows: Vec<(String, Value<'_>)> = vec![
-            (
-                stiffness.label("Effective stiffness k_M"),
-                Box::new(|found, _| stiffness.of(found.stiffness_n_per_m)),
-            ),
-            (
-                "Effective damping β_M (%)".to_owned(),
-                Box::new(|found, _| 100.0 * found.damping_ratio),
-            ),
-            ("Damping factor B_M".to_owned(), Box::new(|found, _| found.damping_factor)),
-            ("Effective period T_M (s)".to_owned(), Box::new(|found, _| found.period_s)),
-            (
-                length.label("Displacement D_M"),
-                Box::new(|found, _| length.of(found.displacement_m)),
-            ),
-            (
-                length.label(&match self.plan {
-                    Some(_) => format!("Total displacement D_TM = {} D_M", cell(total)),
-                    None => "1.15 D_M, the least D_TM".to_owned(),
-                }),
-                Box::new(move |found, _| length.of(total * found.displacement_m)),
-            ),
-            (
-                length.label(&format!("Runs, {}", model.statistic())),
-                Box::new(|_, bound| length.of(runs(bound))),
-            ),
-            ("  over D_M".to_owned(), Box::new(|found, bound| runs(bound) / found.displacement_m)),
-        ];
-        if let Some(gap_m) = model.gap_m {
-            let share = move |found: &LateralForce, _| 100.0 * total * found.displacement_m / gap_m;
-            rows.insert(6, ("  of the gap (%)".to_owned(), Box::new(share)));
-        }
-        let heads = model.bounds.iter().map(|bound| bound.name.to_owned());
-        let heads = core::iter::once(String::new()).chain(heads).collect();
-        let row = |(name, value): &(String, Value<'_>)| {
+        let row = |name: String, value: &dyn Fn(&LateralForce, usize) -> f64| -> Vec<String> {
             let of = |(bound, found): (usize, &Option<LateralForce>)| {
                 cell(found.map_or(f64::NAN, |found| value(&found, bound)))
             };
-            let cells = model.lateral.iter().enumerate().map(of);
-            core::iter::once(name.clone()).chain(cells).collect()
+            core::iter::once(name).chain(model.lateral.iter().enumerate().map(of)).collect()
         };
+        let figure = |figure: &LateralFigure| {
+            let title = match self.plan {
+                Some(_) if figure.key == TOTAL => {
+                    format!("Total displacement D_TM = {} D_M", cell(total))
+                }
+                _ => figure.title.to_owned(),
+            };
+            let value = |found: &LateralForce| (figure.value)(found, total);
+            match figure.shown {
+                LateralUnit::Of(quantity) => {
+                    let unit = unit(quantity);
+                    row(unit.label(&title), &|found, _| unit.of(value(found)))
+                }
+                LateralUnit::Plain => row(title, &|found, _| value(found)),
+                LateralUnit::Percent => row(title, &|found, _| 100.0 * value(found)),
+            }
+        };
+        let heads = model.bounds.iter().map(|bound| bound.name.to_owned());
+        let mut rows = vec![core::iter::once(String::new()).chain(heads).collect::<Vec<_>>()];
+        let (displacements, isolators) = LATERAL.split_at(DISPLACEMENTS);
+        rows.extend(isolators.iter().chain(displacements).map(figure));
+        rows.extend(model.gap_m.map(|gap_m| {
+            row("  of the gap (%)".to_owned(), &|found, _| {
+                100.0 * total * found.displacement_m / gap_m
+            })
+        }));
+        let of_runs = length.label(&format!("Runs, {}", model.statistic()));
+        rows.push(row(of_runs, &|_, bound| length.of(runs(bound))));
+        rows.push(row("  over D_M".to_owned(), &|found, bound| runs(bound) / found.displacement_m));
         let heading = format!("Equivalent lateral force{} beside the runs", self.at());
-        let heading = self.of_model(&heading, model);
-        Some((heading, core::iter::once(heads).chain(rows.iter().map(row)).collect()))
+        Some((self.of_model(&heading, model), rows))
     }
 }
 
