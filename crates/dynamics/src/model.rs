@@ -369,24 +369,34 @@ impl Model {
                 ..initial
             };
             let structure = structure.along([x, y])?;
-            let slider = self.slider.clone();
+            let slider = self.slider.turned_to([x, y]);
             return Self::with_modes(block, slider, structure, self.gravity_m_per_s2, initial).ok();
         }
         let is_same = model.frame.stiffnesses_n_per_m == other.frame.stiffnesses_n_per_m
             && (model.frame.damping == other.frame.damping || self.storeys() == 0);
-        let frame = model.frame.clone();
-        (is_axis || is_same).then(|| Self { block, frame, initial, along_y: None, ..self.clone() })
+        let (frame, slider) = (model.frame.clone(), self.slider.turned_to([x, y]));
+        (is_axis || is_same).then(|| Self {
+            block,
+            slider,
+            frame,
+            initial,
+            along_y: None,
+            ..self.clone()
+        })
     }
 
     /// The same model turned so that what is along y is along x.
     pub fn turned_to_y(&self) -> Self {
         let AlongY { stiffnesses_n_per_m, damping, width_m, initial } = self.along_y();
         let block = Block { width_m, ..self.block };
+        let Slider { tilt_rad, tilt_y_rad, .. } = self.slider;
+        let slider = Slider { tilt_rad: tilt_y_rad, tilt_y_rad: tilt_rad, ..self.slider.clone() };
         if self.structure.is_some() {
-            return Self { block, initial, along_y: None, ..self.clone() };
+            return Self { block, slider, initial, along_y: None, ..self.clone() };
         }
         Self {
             block,
+            slider,
             frame: Frame { stiffnesses_n_per_m, damping, ..self.frame.clone() },
             initial,
             along_y: None,
@@ -500,10 +510,16 @@ impl Model {
         self.gravity_m_per_s2 * libm::sin(self.slider.tilt_rad)
     }
 
+    /// The same along x and along y, towards −x and −y.
+    #[must_use]
+    pub fn slope_in_plane_m_per_s2(&self) -> [f64; 2] {
+        self.slider.slope_sines().map(|sine| self.gravity_m_per_s2 * sine)
+    }
+
     /// `g cos θ` in m/s²: what presses the block on the surface at rest.
     #[must_use]
     pub fn normal_gravity_m_per_s2(&self) -> f64 {
-        self.gravity_m_per_s2 * libm::cos(self.slider.tilt_rad)
+        self.gravity_m_per_s2 * self.slider.slope_cosine()
     }
 
     /// What presses the block on the surface without vertical motion, in N.
@@ -589,6 +605,23 @@ impl Model {
             q[i] = below_m;
         }
         q
+    }
+
+    /// Displacements at t = 0 in m of the [oscillators](Structure::oscillators_in_plane) of a structure by its modes: as
+    /// given along y, else those that the slope's pull holds at rest; none of a frame.
+    #[must_use]
+    pub fn initial_oscillators_in_plane_m(&self) -> Vec<f64> {
+        if let Some(q) = self.along_y.as_ref().and_then(|y| y.initial.storey_displacement_m.clone())
+        {
+            return q;
+        }
+        let [x, y] = self.slope_in_plane_m_per_s2();
+        let modes = self.structure.as_ref().map(Structure::oscillators_in_plane);
+        let of_mode = |mode: OscillatorInPlane| {
+            let omega = mode.frequency_rad_per_s;
+            0.0 - (x * mode.direction[0] + y * mode.direction[1]) / (omega * omega)
+        };
+        modes.into_iter().flatten().map(of_mode).collect()
     }
 
     /// Storey velocities at t = 0 in m/s: as given, else 0.

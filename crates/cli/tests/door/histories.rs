@@ -256,11 +256,14 @@ fn pairs_at_once_are_models_with_two_records() {
 #[test]
 fn pairs_of_a_model_in_one_direction() {
     let folder = folder("histories-one-direction", 2);
-    let model = folder.read("plain.toml").replace("[slider]\n", "[slider]\ntilt = \"1 mrad\"\n");
-    folder.write("tilted.toml", &model);
-    let run = ["run", "tilted.toml", "--records", "records/r0.csv", "--second", "records/r1.csv"];
+    let model = folder.read("plain.toml").replace("[slider]\n", "[slider]\nasymmetry = 0.1\n");
+    folder.write("uneven.toml", &model);
+    let run = ["run", "uneven.toml", "--records", "records/r0.csv", "--second", "records/r1.csv"];
     let refused = folder.refused(&run);
-    assert!(refused.contains("slider.tilt: expected a model that is solved in two"), "{refused}");
+    assert!(
+        refused.contains("slider.asymmetry: expected a model that is solved in two"),
+        "{refused}"
+    );
     assert!(refused.contains("pairs = separate"), "{refused}");
     folder.stdout(&[&run[..], &["--pairs", "separate"]].concat());
     // What speaks of y waits for pairs, and is refused under one component.

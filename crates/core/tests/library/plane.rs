@@ -7,13 +7,12 @@
 
 use crate::common::random_in_plane::{Random, System, libm_sin};
 use slipstick::check::check;
-use slipstick::model::{InitialState, Model, Slider};
 use slipstick::response::{Demands, EventKind, Response};
 use slipstick::slider::{Friction, RateCurve, RateLaw};
 use slipstick::solver::{Prepared, PreparedMotion, exact};
 
 /// Every figure of resultants over the peak of its kind.
-fn differences(a: &Demands, b: &Demands) -> Vec<(&'static str, f64)> {
+pub fn differences(a: &Demands, b: &Demands) -> Vec<(&'static str, f64)> {
     let over = |x: f64, y: f64, scale: f64| {
         if x == y { 0.0 } else { (x - y).abs() / scale.abs().max(1e-300) }
     };
@@ -60,7 +59,7 @@ fn kinds(response: &Response) -> Vec<EventKind> {
 }
 
 /// Whether two responses agree; the worst figure, or what is different.
-fn agree(a: &Response, b: &Response) -> Result<f64, String> {
+pub fn agree(a: &Response, b: &Response) -> Result<f64, String> {
     if kinds(a) != kinds(b) {
         return Err(format!("{} and {} events", kinds(a).len(), kinds(b).len()));
     }
@@ -79,7 +78,7 @@ fn seeds(usual: u64) -> core::ops::Range<u64> {
 }
 
 /// Compares each system with what is made of it, for all seeds.
-fn all_agree(what: &str, equal: bool, of: impl Fn(u64, &System) -> (Response, Response)) {
+pub fn all_agree(what: &str, equal: bool, of: impl Fn(u64, &System) -> (Response, Response)) {
     let (mut wrong, mut worst, mut count) = (Vec::new(), 0.0_f64, 0);
     for seed in seeds(60) {
         let (a, b) = of(seed, &System::random(seed, equal));
@@ -93,7 +92,7 @@ fn all_agree(what: &str, equal: bool, of: impl Fn(u64, &System) -> (Response, Re
     assert!(wrong.is_empty(), "{} of {count}:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-fn turned(angle: f64) -> impl Fn([f64; 2]) -> [f64; 2] {
+pub fn turned(angle: f64) -> impl Fn([f64; 2]) -> [f64; 2] {
     let (sine, cosine) = (libm_sin(angle), libm_sin(angle + core::f64::consts::FRAC_PI_2));
     move |[x, y]| [cosine * x - sine * y, sine * x + cosine * y]
 }
@@ -151,7 +150,7 @@ fn prop_motion_along_a_line_is_motion_in_one_direction() {
 }
 
 /// Whether the figures by axis are parts of the resultant, and all is said as in two directions.
-fn is_on_a_line(seed: u64, response: &Response, along: [f64; 2]) {
+pub fn is_on_a_line(seed: u64, response: &Response, along: [f64; 2]) {
     let (d, plane) = (&response.demands, response.in_plane.as_deref().expect("two directions"));
     assert_eq!((d.reversal_count, d.overturning_ratio), (0, None), "seed {seed}");
     assert!(d.residual_sliding_displacement_m >= 0.0, "seed {seed}");
@@ -390,19 +389,15 @@ fn prop_systems_of_one_coefficient_are_certified() {
 fn what_does_not_move_in_two_directions_is_refused() {
     let system = System::random(1, true);
     let model = system.model();
-    let slider = Slider { tilt_rad: 0.01, ..model.slider().clone() };
-    let tilted =
-        Model::new(*model.block(), slider, model.frame().clone(), 9.8, InitialState::rest());
-    let error = exact(&tilted.expect("a model"), &system.motion()).expect_err("a tilt");
-    assert_eq!(error.to_string(), "two horizontal directions: expected a model without tilt");
-
+    let refused = |friction: Friction| {
+        let error = exact(&model.with_friction(friction), &system.motion());
+        error.expect_err("a refusal").to_string()
+    };
+    let expected = "two horizontal directions: expected a model without friction by direction";
+    let uneven = Friction::by_direction([0.06; 2], [0.05, 0.04]).expect("friction");
+    assert_eq!(refused(uneven), expected);
     let speeds_m_per_s = vec![0.0, 0.1];
     let pieces = RateCurve::Pieces { speeds_m_per_s, coefficients: vec![0.05, 0.08] };
-    let law = RateLaw::new(pieces, [1.0; 2]).expect("a law");
-    let friction = Friction::by_speed([0.06; 2], law).expect("friction");
-    let error = exact(&model.with_friction(friction), &system.motion()).expect_err("pieces");
-    assert_eq!(
-        error.to_string(),
-        "two horizontal directions: expected a model without friction by straight lines of the speed"
-    );
+    let law = RateLaw::new(pieces, [1.0, 0.9]).expect("a law");
+    assert_eq!(refused(Friction::by_speed([0.06; 2], law).expect("friction")), expected);
 }

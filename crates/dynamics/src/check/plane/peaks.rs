@@ -145,7 +145,7 @@ impl Tracked<'_> {
         for axis in 0..2 {
             self.outputs.each(
                 [&v[axis], &slider[axis], &friction[axis], &acting.forces.base[axis], &[0.0; N]],
-                (0.0, &block[axis]),
+                (frame.slope[axis], &block[axis]),
                 |point| match &by_modes {
                     Some(points) => points[point][axis],
                     None => {
@@ -218,7 +218,8 @@ impl Peaks {
         let Forces { push, spring, damper, .. } = &acting.forces;
         let [push, spring, damper, a] =
             [push, spring, damper, &acting.under.a].map(|columns| pair(columns, 0));
-        let block = unit([-(push[0] + a[0]), -(push[1] + a[1])]);
+        let slope = tracked.frame.slope;
+        let block = unit([0, 1].map(|i| slope[i] - (push[i] + a[i])));
         let slider = unit([0, 1].map(|i| spring[i] + damper[i]));
         let inside = |u: &Pair| {
             arc.is_none_or(|[from, to]| {

@@ -10,7 +10,7 @@ use super::rows::{PointsBetween, Rows, at};
 use super::series::{Kind, Series, square};
 use super::stop::Arc;
 use super::system::{State, System};
-use super::vector::{inner, norm};
+use super::vector::{apart, inner, norm};
 use crate::linear::polynomial::{
     DEGREE, Polynomial, ZERO, curvature_bound, curvature_term, largest, value,
 };
@@ -223,24 +223,27 @@ pub(super) struct StickEnd<'a> {
     pub(super) g: &'a [f64],
 }
 
-/// What a vector output is made of: `a P + b L g − c φ`, with `φ = f u`, in stick `p`.
+/// What a vector output is made of: `a P + b L g − c φ − d`, with `φ = f u`, in stick `p`.
 struct Composed {
     of_pull: f64,
     of_shear: f64,
     of_friction: f64,
+    /// What does not move.
+    less: [f64; 2],
 }
 
 impl Composed {
     /// Without friction.
     fn steady(&self, axis: usize, series: &Series) -> Polynomial {
         let (pull, shear) = (&series.pull[axis], &series.shear[axis]);
-        core::array::from_fn(|k| self.of_pull * pull[k] + self.of_shear * shear[k])
+        let own = core::array::from_fn(|k| self.of_pull * pull[k] + self.of_shear * shear[k]);
+        less(own, self.less[axis])
     }
 
     /// Its values at both ends, and how far its components depart from their chords at most.
     fn between(&self, chords: &[[Chord; 2]; 3]) -> ([[f64; 2]; 2], [f64; 2]) {
         let factors = [self.of_pull, self.of_shear, -self.of_friction];
-        let (mut ends, mut bends) = ([[0.0; 2]; 2], [0.0; 2]);
+        let (mut ends, mut bends) = ([self.less.map(|constant| 0.0 - constant); 2], [0.0; 2]);
         for (factor, chords) in factors.into_iter().zip(chords) {
             for (axis, chord) in chords.iter().enumerate() {
                 bends[axis] += factor.abs() * chord.bend;
@@ -285,6 +288,12 @@ pub(super) fn bend(c: &Polynomial, to: f64) -> f64 {
     0.125 * if to == 1.0 { curvature_bound(c) } else { curvature_term(c, to) }
 }
 
+/// A series less a constant.
+fn less(mut c: Polynomial, constant: f64) -> Polynomial {
+    c[0] -= constant;
+    c
+}
+
 fn scaled(c: &Polynomial, factor: f64) -> Polynomial {
     c.map(|c| factor * c)
 }
@@ -318,11 +327,12 @@ impl Peaks {
         (bend_n, of_g): ([f64; 2], &[f64]),
     ) -> bool {
         let tables = ends.map(|end| end.table);
+        let blocks = tables.map(|table| apart(table, system.slope));
         let kg = system.block_kg;
         let of_push = ends.map(|end| end.push.map(|p| kg * p));
         let of_slider =
             ends.map(|end| [0, 1].map(|k| kg * (end.pull[k] - end.push[k]) - end.shear_n[k]));
-        let own = self.of(Output::Block).is_above(tables, [0.0; 2])
+        let own = self.of(Output::Block).is_above(blocks, [0.0; 2])
             && self.of(Output::FrictionForce).is_above(of_push, bend_n)
             && self.of(Output::SliderForce).is_above(of_slider, bend_n)
             && self.of(Output::BaseShear).is_above(ends.map(|end| end.shear_n), bend_n);
@@ -348,11 +358,9 @@ impl Peaks {
         let ends = ends.each_ref();
         (0..self.points).all(|i| {
             let mut accelerations = ends.map(|end| at(&end.of_g, i));
-            if let Some(part) = system.with_block.get(i) {
-                for (acceleration, table) in accelerations.iter_mut().zip(tables) {
-                    let carried = times(part, table);
-                    *acceleration = [0, 1].map(|k| carried[k] - acceleration[k]);
-                }
+            for (acceleration, table) in accelerations.iter_mut().zip(tables) {
+                let carried = system.with_block.get(i).map_or([0.0; 2], |part| times(part, table));
+                *acceleration = apart(apart(carried, *acceleration), system.slope);
             }
             let drifts = || {
                 let ends = ends.map(|end| at(&end.drifts, i));
@@ -404,6 +412,7 @@ impl Peaks {
         vectorize!(series.instructions, _simd => room.look(system, series, to, (end, g)));
         let PointsBetween { ends, bends } = &room.points;
         let ends = ends.each_ref();
+        let pulled = system.slope.map(|pull| -pull);
         for i in 0..system.points {
             let displacements = ends.map(|end| at(&end.displacements, i));
             let of = (displacements, at(&bends.displacements, i));
@@ -425,14 +434,19 @@ impl Peaks {
                 let steady = [0, 1].map(|axis| -> Polynomial {
                     let [x, y] = &block.steady;
                     let row = with_block[axis];
-                    core::array::from_fn(|k| inner(row, [x[k], y[k]]) - of_modes[axis][k])
+                    let total =
+                        core::array::from_fn(|k| inner(row, [x[k], y[k]]) - of_modes[axis][k]);
+                    less(total, system.slope[axis])
                 });
                 let of_friction = with_block.map(|row| row_times(row, &block.of_friction));
                 self.look_at_vector(Output::Acceleration(i), &Vector { steady, of_friction }, part);
                 continue;
             }
-            let of = (ends.map(|end| at(&end.of_g, i)), at(&bends.of_g, i));
-            self.look_at_rows(Output::Acceleration(i), of, rows, (series, to));
+            // Φ g, and the slope's pull: what is told is −Φ g without it.
+            let ends = ends.map(|end| apart(at(&end.of_g, i), pulled));
+            let of = (ends, at(&bends.of_g, i));
+            let output = Output::Acceleration(i);
+            self.look_at_rows_apart(output, of, rows, (series, to), pulled);
         }
         self.room = room;
     }
@@ -443,9 +457,22 @@ impl Peaks {
     fn look_at_rows(
         &mut self,
         output: Output,
+        of: ([[f64; 2]; 2], [f64; 2]),
+        rows: (&[Rows; 2], usize, &[f64]),
+        part: (&Series, f64),
+    ) {
+        self.look_at_rows_apart(output, of, rows, part, [0.0; 2]);
+    }
+
+    /// The same of rows less a constant, which the ends are already.
+    #[inline(always)]
+    fn look_at_rows_apart(
+        &mut self,
+        output: Output,
         (ends, bend): ([[f64; 2]; 2], [f64; 2]),
         rows: (&[Rows; 2], usize, &[f64]),
         (series, to): (&Series, f64),
+        constant: [f64; 2],
     ) {
         let peak = &mut self.all[output.place(self.points)];
         peak.note_ends(ends, to);
@@ -455,7 +482,8 @@ impl Peaks {
         let (of, point, list) = rows;
         let rise = of.each_ref().map(|rows| to * rows.sum(point, &list[series.modes..]));
         if !keeps_on_both(ends, rise, bend) {
-            peak.look(&series.combined(rows), to);
+            let [x, y] = series.combined(rows);
+            peak.look(&[less(x, constant[0]), less(y, constant[1])], to);
         }
     }
 
@@ -492,9 +520,11 @@ impl Peaks {
     fn look_at_block(&mut self, part: &SeriesPart<'_>) -> Option<Vector> {
         let &SeriesPart { system, series, .. } = part;
         let kg = system.block_kg;
-        let block = Composed { of_pull: 1.0, of_shear: 0.0, of_friction: 1.0 };
-        let friction = Composed { of_pull: 0.0, of_shear: 0.0, of_friction: kg };
-        let slider = Composed { of_pull: kg, of_shear: -1.0, of_friction: kg };
+        let slope = system.slope;
+        let block = Composed { of_pull: 1.0, of_shear: 0.0, of_friction: 1.0, less: slope };
+        let none = [0.0; 2];
+        let friction = Composed { of_pull: 0.0, of_shear: 0.0, of_friction: kg, less: none };
+        let slider = Composed { of_pull: kg, of_shear: -1.0, of_friction: kg, less: none };
         // The size of constant friction is linear in the time: its ends are its peaks.
         let law = &system.kinetic_per_kg;
         let by_axis = law.is_constant() && law.is_plain() && series.kind == Kind::Slip;
@@ -508,7 +538,9 @@ impl Peaks {
                 core::array::from_fn(|k| inner(row, [series.pull[0][k], series.pull[1][k]]))
             };
             let block = Vector { steady: [of_pull(0), of_pull(1)], of_friction: mass.inverse };
-            self.look_at_vector(Output::Block, &block, part);
+            let [x, y] = block.steady;
+            let steady = [less(x, slope[0]), less(y, slope[1])];
+            self.look_at_vector(Output::Block, &Vector { steady, ..block }, part);
             own = Some(block);
         } else {
             self.look_at_composed(Output::Block, &block, part, false);
@@ -573,7 +605,7 @@ impl Peaks {
         if system.mass.is_some() {
             self.note_arc_of_block(system, arc, pulls[1], g);
         }
-        let block = (Output::Block, pulls, arc.friction);
+        let block = (Output::Block, pulls.map(|pull| apart(pull, system.slope)), arc.friction);
         let of = [
             (Output::FrictionForce, [[0.0; 2]; 2], kg * arc.friction),
             (Output::SliderForce, slider, kg * arc.friction),
@@ -616,13 +648,10 @@ impl Peaks {
                 peak.axes[axis] = peak.axes[axis].max(arc.largest(|u| of(u)[axis].abs()));
             }
         };
-        raise(Output::Block, &block);
+        raise(Output::Block, &|u| apart(block(u), system.slope));
         for (i, part) in system.with_block.iter().enumerate() {
             let of_modes = [0, 1].map(|axis| system.floors[axis].sum(i, g));
-            let of = |u: [f64; 2]| {
-                let of_block = times(part, block(u));
-                [of_block[0] - of_modes[0], of_block[1] - of_modes[1]]
-            };
+            let of = |u: [f64; 2]| apart(apart(times(part, block(u)), of_modes), system.slope);
             raise(Output::Acceleration(i), &of);
         }
         let moments = system
