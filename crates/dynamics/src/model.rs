@@ -269,6 +269,14 @@ impl Model {
         Some(floors.collect())
     }
 
+    /// One over the overturning moment along x and y that the weight resists about an edge, `M_tot g width/2`, in
+    /// 1/(N m), where both widths are given and heights are.
+    pub(crate) fn per_resisted_moment_in_plane(&self) -> Option<[f64; 2]> {
+        self.lever_arms()?;
+        let widths_m = [self.block.width_m?, self.along_y.as_ref()?.width_m?];
+        Some(widths_m.map(|width_m| 1.0 / (0.5 * width_m * self.weight_n())))
+    }
+
     /// Height of a floor above the one below or of a point above the one before it, in m, where it is known.
     #[must_use]
     pub fn rise_m(&self, point: usize) -> Option<f64> {

@@ -95,6 +95,8 @@ pub(super) struct PlaneFrame<'a> {
     pub(super) curvature_per_m: f64,
     /// `g sin θ` along x and y: in all accelerations, not in what is told of them.
     pub(super) slope: Pair,
+    /// One over `M_tot g width/2` along x and y, where both are given and a moment is asked for.
+    pub(super) per_resisted: Option<Pair>,
     /// Mass of each part of `q`, and along what it moves: floors along x and y in turn from the first up, or
     /// oscillators.
     pub(super) masses_kg: Vec<f64>,
@@ -158,6 +160,7 @@ impl<'a> PlaneFrame<'a> {
             damper: x.damper,
             curvature_per_m,
             slope: model.slope_in_plane_m_per_s2(),
+            per_resisted: per_resisted(model),
             masses_kg: x.masses_kg.iter().flat_map(|mass| [*mass; 2]).collect(),
             points: None,
             on_block: [&stiffness, &damping].map(|rows| on_block(rows, &along)),
@@ -222,6 +225,7 @@ impl<'a> PlaneFrame<'a> {
             damper: slider.damper,
             curvature_per_m,
             slope: model.slope_in_plane_m_per_s2(),
+            per_resisted: per_resisted(model),
             masses_kg: parts.iter().map(|part| part.mass_kg).collect(),
             points: Some(PointOfModes::all(structure)),
             on_block: [&stiffness, &damping].map(|rows| on_block(rows, &along)),
@@ -444,6 +448,12 @@ impl<'a> PlaneFrame<'a> {
         let block_kg = self.block_kg / self.body.most_compliant();
         self.masses_kg.iter().fold(block_kg, |least, mass| mass.min(least))
     }
+}
+
+fn per_resisted(model: &Model) -> Option<Pair> {
+    let widths_m = [model.block().width_m?, model.along_y().width_m?];
+    model.lever_arms()?;
+    Some(widths_m.map(|width_m| 2.0 / (width_m * model.weight_n())))
 }
 
 /// A square matrix: row by row what is not 0, and in which column.

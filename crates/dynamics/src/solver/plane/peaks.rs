@@ -180,6 +180,8 @@ fn keeps_on_both([from, to]: [[f64; 2]; 2], rise: [f64; 2], bend: [f64; 2]) -> b
 pub(super) struct Peaks {
     points: usize,
     all: Vec<Peak>,
+    /// Of the sum and the difference of the overturning ratios along x and y.
+    corners: Peak,
     room: Room,
     /// Of `s`: its length, when that was largest and where; largest and smallest by axis.
     pub(super) sliding: Peak,
@@ -288,6 +290,12 @@ pub(super) fn bend(c: &Polynomial, to: f64) -> f64 {
     0.125 * if to == 1.0 { curvature_bound(c) } else { curvature_term(c, to) }
 }
 
+/// `r_x + r_y` and `r_x − r_y` of the overturning ratios, from the moments along x and y.
+fn at_corners(per: [f64; 2], moment: [f64; 2]) -> [f64; 2] {
+    let [x, y] = [per[0] * moment[0], per[1] * moment[1]];
+    [x + y, x - y]
+}
+
 /// A series less a constant.
 fn less(mut c: Polynomial, constant: f64) -> Polynomial {
     c[0] -= constant;
@@ -305,6 +313,7 @@ impl Peaks {
         Self {
             points: system.points,
             all: vec![Peak::default(); Output::count(system.points, 0)],
+            corners: Peak::default(),
             room: Room::new(system),
             sliding,
             peak_time_s: 0.0,
@@ -312,6 +321,11 @@ impl Peaks {
             largest: s,
             smallest: s,
         }
+    }
+
+    /// The largest `|r_x| + |r_y|` of the overturning ratios.
+    pub(super) fn overturning_ratio(&self) -> f64 {
+        self.corners.axes[0].max(self.corners.axes[1])
     }
 
     pub(super) fn of(&self, output: Output) -> Peak {
@@ -336,16 +350,22 @@ impl Peaks {
             && self.of(Output::FrictionForce).is_above(of_push, bend_n)
             && self.of(Output::SliderForce).is_above(of_slider, bend_n)
             && self.of(Output::BaseShear).is_above(ends.map(|end| end.shear_n), bend_n);
-        let overturns = |axis: usize| {
-            let Some((arm, along)) = &system.overturning[axis] else { return true };
-            let (mut values, mut bend) = ([[0.0; 2]; 2], [0.0; 2]);
+        if !own {
+            return false;
+        }
+        let (mut values, mut bend) = ([[0.0; 2]; 2], [0.0; 2]);
+        for axis in 0..2 {
+            let Some((arm, along)) = &system.overturning[axis] else { continue };
             for i in 0..2 {
                 values[i][axis] = inner(*along, tables[i]) - arm.sum(0, ends[i].g);
             }
             bend[axis] = arm.size(0, of_g);
-            self.of(Output::Overturning).is_above_by_axis(values, bend)
-        };
-        own && (0..2).all(overturns)
+        }
+        self.of(Output::Overturning).is_above_by_axis(values, bend)
+            && system.per_resisted.is_none_or(|per| {
+                let bend = inner(per, bend);
+                self.corners.is_above_by_axis(values.map(|m| at_corners(per, m)), [bend; 2])
+            })
     }
 
     /// The same of the points.
@@ -545,6 +565,7 @@ impl Peaks {
         } else {
             self.look_at_composed(Output::Block, &block, part, false);
         }
+        let mut moments = Vector { steady: [ZERO; 2], of_friction: [[0.0; 2]; 2] };
         for axis in 0..2 {
             let Some((arm, along)) = &system.overturning[axis] else { continue };
             // The moment of floors and block: −arm·g + along·b.
@@ -563,6 +584,16 @@ impl Peaks {
             let all = &mut self.all[Output::Overturning.place(self.points)];
             all.axes[axis] = peak.axes[axis];
             all.norm = all.norm.max(peak.axes[axis]);
+            moments.steady[axis] = steady;
+            moments.of_friction[axis] = of_friction;
+        }
+        if let Some(per) = system.per_resisted {
+            let ([x, y], [of_x, of_y]) = (&moments.steady, moments.of_friction);
+            let of = |k: usize| at_corners(per, [x[k], y[k]]);
+            let steady = [0, 1].map(|corner| core::array::from_fn(|k| of(k)[corner]));
+            let [a, b] = [0, 1].map(|k| at_corners(per, [of_x[k], of_y[k]]));
+            let of_friction = [[a[0], b[0]], [a[1], b[1]]];
+            Vector { steady, of_friction }.look(&mut self.corners, part, true);
         }
         own
     }
@@ -624,6 +655,7 @@ impl Peaks {
                 peak.axes[axis] = peak.axes[axis].max(size);
             }
         }
+        self.note_arc_at_corners(system, arc, pulls, g);
         let of = of.into_iter().chain(system.mass.is_none().then_some(block));
         for (output, [from, to], c) in of {
             let peak = &mut self.all[output.place(self.points)];
@@ -636,6 +668,30 @@ impl Peaks {
 }
 
 impl Peaks {
+    /// The same of the overturning ratios of both axes together, of one mass.
+    fn note_arc_at_corners(
+        &mut self,
+        system: &System,
+        arc: &Arc,
+        [from, to]: [[f64; 2]; 2],
+        g: &[f64],
+    ) {
+        let [Some((of_x, along_x)), Some((of_y, along_y))] = &system.overturning else { return };
+        let Some(per) = system.per_resisted.filter(|_| system.mass.is_none()) else { return };
+        let (modes, arms) = ([of_x.sum(0, g), of_y.sum(0, g)], [along_x[0], along_y[1]]);
+        let [x, y] = [per[0] * arms[0], per[1] * arms[1]];
+        let towards = [[x, y], [-x, -y], [x, -y], [-x, y]];
+        let extremes = towards.into_iter().flat_map(|towards| arc.extremes(towards));
+        let within = extremes.map(|u| (u, arc.part_left(u)));
+        for (u, left) in within.chain([(arc.to, 0.0)]).collect::<Vec<_>>() {
+            let moment = [0, 1].map(|k| {
+                let pull = to[k] + (from[k] - to[k]) * left;
+                arms[k] * (pull - arc.friction * u[k]) - modes[k]
+            });
+            self.corners.note(at_corners(per, moment));
+        }
+    }
+
     /// The same of what a block with a mass in each direction is part of, `b = C (P − f u)`: over times as short as
     /// that of the arc all but `u` stands.
     fn note_arc_of_block(&mut self, system: &System, arc: &Arc, pull: [f64; 2], g: &[f64]) {
@@ -663,6 +719,12 @@ impl Peaks {
             moments.map(|moment| moment.map_or(0.0, |(modes, along)| inner(along, b) - modes))
         };
         raise(Output::Overturning, &of);
+        if let Some(per) = system.per_resisted {
+            for corner in 0..2 {
+                let largest = arc.largest(|u| at_corners(per, of(u))[corner].abs());
+                self.corners.axes[corner] = self.corners.axes[corner].max(largest);
+            }
+        }
     }
 }
 

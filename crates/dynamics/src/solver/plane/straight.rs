@@ -117,12 +117,16 @@ impl OnLine<'_> {
             events: events.collect(),
             history: None,
         };
+        let overturning = in_plane.axes.each_ref().map(|axis| axis.overturning_ratio);
         let mut demands = Demands {
             max_sliding_displacement_m: in_plane.axes[0].max_sliding_displacement_m,
             min_sliding_displacement_m: in_plane.axes[0].min_sliding_displacement_m,
             residual_sliding_displacement_m: own.residual_sliding_displacement_m.abs(),
             reversal_count: 0,
-            overturning_ratio: None,
+            overturning_ratio: self
+                .system
+                .per_resisted
+                .and_then(|_| overturning.into_iter().try_fold(0.0, |sum, of| Some(sum + of?))),
             ..own.clone()
         };
         for event in &mut response.events {

@@ -62,6 +62,9 @@ pub(in crate::solver) struct System {
     pub(super) oscillators: Vec<f64>,
     /// What the modes and the block add to the overturning moment along x and y, where it is asked for.
     pub(super) overturning: [Option<(Rows, [f64; 2])>; 2],
+    /// One over the moment along x and y that the weight resists about an edge, in 1/(N m); none where one of both is not
+    /// asked for.
+    pub(super) per_resisted: Option<[f64; 2]>,
     /// Bound on the rates in rad/s.
     pub(in crate::solver) rate_rad_per_s: f64,
 }
@@ -130,6 +133,7 @@ impl System {
                 let along = if k == 0 { [block, 0.0] } else { [0.0, block] };
                 Some((Rows::new(&[place(k, if n == 0 { &[] } else { &arm })]), along))
             }),
+            per_resisted: model.per_resisted_moment_in_plane(),
             rate_rad_per_s: axes.iter().fold(0.0, |rate: f64, a| rate.max(a.slip_rate_rad_per_s)),
         })
     }
@@ -232,6 +236,7 @@ impl System {
             with_block,
             oscillators: sizes.iter().map(|size| 1.0 / size).collect(),
             overturning,
+            per_resisted: model.per_resisted_moment_in_plane(),
             rate_rad_per_s,
         })
     }
