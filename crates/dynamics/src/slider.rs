@@ -345,6 +345,32 @@ impl Slider {
         }
     }
 
+    /// One surface without ends that does what these do when all slide: of surfaces in series with radii a pendulum of the
+    /// sum of these, `φ = (s + Σ μ R)/Σ R` over the normal force; with a flat one friction alone, of the least of those.
+    /// None where friction is not the same in all directions.
+    #[must_use]
+    pub fn as_one_surface(&self) -> Option<Self> {
+        let ends = Ends::Open { gap_m: None };
+        let Some(series) = self.series() else {
+            let one = Self { ends, ..self.clone() };
+            return one.isotropic(1.0).is_ok().then_some(one);
+        };
+        let surfaces = series.surfaces();
+        let flat = surfaces.iter().filter(|surface| surface.radius_m.is_none());
+        let flat = flat.map(|surface| surface.friction).reduce(f64::min);
+        let sum = |of: fn(&Surface) -> f64| surfaces.iter().map(of).sum::<f64>();
+        let radius_m = sum(|surface| surface.radius_m.unwrap_or(0.0));
+        let weighted = sum(|surface| surface.radius_m.unwrap_or(0.0) * surface.friction);
+        let mu = flat.unwrap_or(weighted / radius_m);
+        let friction = Friction::new(series.static_ratio() * mu, mu).ok()?;
+        let one = match flat {
+            Some(_) => Self::new(friction),
+            None => Self::pendulum(friction, radius_m),
+        };
+        let Self { damper_n_s_per_m, tilt_rad, tilt_y_rad, .. } = *self;
+        Some(Self { damper_n_s_per_m, tilt_rad, tilt_y_rad, ends, ..one })
+    }
+
     /// The least displacement in m beyond which the isolators cannot or are not meant to go, and what is there: the
     /// end of their travel, a stop, or the gap that the detailing allows.
     #[must_use]

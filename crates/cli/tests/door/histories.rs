@@ -266,6 +266,15 @@ fn pairs_of_a_model_in_one_direction() {
     );
     assert!(refused.contains("pairs = separate"), "{refused}");
     folder.stdout(&[&run[..], &["--pairs", "separate"]].concat());
+    // What cannot be run in two directions says what each axis by itself leaves out.
+    let contents = "\n[[contents]]\nfloor = 0\nmass = \"1 kg\"\nstatic_friction = 0.3\nkinetic_friction = 0.3\n";
+    folder.write("contents.toml", folder.read("plain.toml") + contents);
+    let run = ["run", "contents.toml", "--records", "records/r0.csv", "--second", "records/r1.csv"];
+    assert!(folder.refused(&run).contains("contents: expected a model that is solved in two"));
+    folder.stdout(&[&run[..], &["--pairs", "separate", "--out", "apart"]].concat());
+    let page = folder.read("apart/report.html");
+    assert!(page.contains("cannot be run in two directions"), "{page}");
+    assert!(page.contains("times as far under both components at once"), "{page}");
     // What speaks of y waits for pairs, and is refused under one component.
     let wide = folder.read("plain.toml").replace("[slider]", "width_y = \"2 m\"\n[slider]");
     folder.write("wide.toml", &wide);
