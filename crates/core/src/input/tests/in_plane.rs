@@ -129,7 +129,7 @@ fn keys_of_one_direction_or_two() {
     let storey = "[[storey]]\nmass = \"40 kg\"\nstiffness = \"36 kN/m\"\ndamping_ratio = 0.02\n";
     for (text, at) in [
         (format!("{BLOCK}{one}rotate = \"30 deg\"\n"), "8:10: motion.rotate"),
-        (format!("{BLOCK}tilt_y = \"1 mrad\"\n{one}"), "5:10: slider.tilt_y"),
+        (format!("{BLOCK}tilt_y = \"1 mrad\"\n{one}"), "6:10: slider.tilt_y"),
         (format!("{BLOCK}{storey}period_y = \"1 s\"\n{one}"), "10:12: storey.1.period_y"),
         (format!("{BLOCK}{storey}damper_y = \"1 N s/m\"\n{one}"), "10:12: storey.1.damper_y"),
         (format!("{BLOCK}{storey}[frame]\nperiod_y = \"1 s\"\n{one}"), "11:12: frame.period_y"),
