@@ -393,6 +393,18 @@ impl Model {
         })
     }
 
+    /// A rigid block of all its mass on [one surface](Slider::as_one_surface) that does what its slider does, of a model with
+    /// surfaces in series or contents, which two directions do not take; none of other models.
+    #[must_use]
+    pub fn simple_in_plane(&self) -> Option<Self> {
+        if self.slider.series().is_none() && self.contents.is_empty() {
+            return None;
+        }
+        let block = Block { mass_kg: self.total_mass_kg(), width_m: None, height_m: None };
+        let (slider, start) = (self.slider.as_one_surface()?, InitialState::rest());
+        Self::new(block, slider, Frame::none(), self.gravity_m_per_s2, start).ok()
+    }
+
     /// The same model turned so that what is along y is along x.
     pub fn turned_to_y(&self) -> Self {
         let AlongY { stiffnesses_n_per_m, damping, width_m, initial } = self.along_y();
@@ -667,7 +679,29 @@ fn each(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::slider::Direction;
+    use crate::slider::{Direction, Surface, SurfacesInSeries};
+
+    /// `φ = (s + Σ μ R)/Σ R` where all slide, and the friction of a flat surface where there is one.
+    #[test]
+    fn surfaces_that_all_slide_are_one() {
+        let surface = |radius_m, friction| Surface { radius_m, friction, travel_m: Some(0.1) };
+        let one = |surfaces| {
+            let series = SurfacesInSeries::new(surfaces, 1.5).unwrap();
+            let block = Block { mass_kg: 700.0, width_m: Some(1.0), height_m: None };
+            let slider = Slider::in_series(series);
+            let whole = Model::new(block, slider, Frame::none(), 9.81, InitialState::rest());
+            let simple = whole.unwrap().simple_in_plane().unwrap();
+            assert_eq!(simple.total_mass_kg(), 700.0);
+            simple.slider().clone()
+        };
+        let pendulum = one(vec![surface(Some(1.0), 0.25), surface(Some(3.0), 0.5)]);
+        let friction = Friction::new(1.5 * 0.4375, 0.4375).unwrap();
+        assert_eq!(pendulum, Slider::pendulum(friction, 4.0));
+        let flat = one(vec![surface(Some(1.0), 0.25), surface(None, 0.5)]);
+        assert_eq!(flat, Slider::new(Friction::new(0.75, 0.5).unwrap()));
+        let plain = Model::rigid_block(9.0, Friction::new(0.2, 0.1).unwrap()).unwrap();
+        assert_eq!(plain.simple_in_plane(), None);
+    }
 
     fn with(stop: Stop) -> Result<Model, ModelError> {
         let friction = Friction::new(0.2, 0.1).unwrap();

@@ -539,8 +539,11 @@ fn columns(table: &table::Table) -> impl Serialize {
 /// What components that are run by themselves leave out, by how much for a block on one pendulum.
 fn apart(name: &str, left_out: &LeftOut) -> String {
     let [median, least, most] = left_out.spread().map(|ratio| format!("{ratio:.2}"));
-    let on = match left_out.radius_m {
+    let slider = left_out.simple.slider();
+    let [friction, _] = left_out.simple.kinetic_friction();
+    let on = match slider.radius_m() {
         Some(radius_m) => format!("a pendulum of R = {} m", compact(radius_m)),
+        None if slider.stiffness_n_per_m(0.0) > 0.0 => "a spring".to_owned(),
         None => "a flat surface".to_owned(),
     };
     let pairs = match left_out.ratios.len() {
@@ -552,6 +555,6 @@ fn apart(name: &str, left_out: &LeftOut) -> String {
          friction holds along the other. A rigid block on {on} and a friction of {}, which has the stiffness and the \
          friction of the slider, goes {median} times as far under both components at once as under the worse of \
          them by itself: {pairs}. The displacements of these tables are short by something of that order.",
-        compact(left_out.friction)
+        compact(friction)
     )
 }
