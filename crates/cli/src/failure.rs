@@ -8,7 +8,7 @@ use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use slipstick::assessment::AssessmentError;
 use slipstick::error::{ChoiceError, InputError, is_hidden, visible};
 use slipstick::record;
-use slipstick::requests::Door;
+use slipstick::requests::FrontEnd;
 use slipstick_files::{FileError, JobError, LaboratoryError, StudyError};
 
 /// Bad input, or an output that nobody reads any more.
@@ -115,7 +115,7 @@ fn excerpt(error: &InputError, text: &str) -> Option<String> {
 
 impl From<ChoiceError> for Failure {
     fn from(error: ChoiceError) -> Self {
-        Self::Message(Door::Command.says(&error).to_string())
+        Self::Message(FrontEnd::Command.says(&error).to_string())
     }
 }
 

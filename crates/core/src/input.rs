@@ -231,7 +231,7 @@ fn values(
     let mut sources = tree::Sources::default();
     let file = sources.add(source_name, text);
     if text.len() > MAX_TEXT_BYTES {
-        let start = tree::Spot { source: file, span: 0..0 };
+        let start = tree::SourceSpan { source: file, span: 0..0 };
         let expected = format!("a model of at most {MAX_TEXT_BYTES} bytes");
         return Err(sources.error(&start, "", expected, text.len().to_string()));
     }
@@ -274,7 +274,7 @@ pub fn from_values(values: &[(&str, InputValue<'_>)]) -> Result<Analysis, InputE
     let mut sources = tree::Sources::default();
     // Where something is missing there is no place.
     sources.add("", "");
-    let mut root = tree::Table(Vec::new());
+    let mut root = tree::TomlTable(Vec::new());
     for &(path, value) in values {
         let set = match value {
             InputValue::Number(number) => Override::number(path, number)?,

@@ -23,7 +23,7 @@ mod structure;
 
 use core::fmt;
 
-use self::energy::Books;
+use self::energy::EnergyBalance;
 use self::judge::{Judge, JudgeInput};
 use self::law::Law;
 use self::outputs::Outputs;
@@ -31,7 +31,7 @@ use self::structure::{Phase, Structure};
 use crate::error::Stopped;
 use crate::model::{Model, Stop, StopKind};
 use crate::motion::GroundMotion;
-use crate::progress::{GoOn, Pulse, UNWATCHED};
+use crate::progress::{Cancel, NEVER_CANCELLED, Pulse};
 use crate::response::{History, Response, interface_name};
 
 /// Radians beyond which the phase of the fastest mode says nothing: every interval is divided into
@@ -142,7 +142,7 @@ pub struct Certificate {
     /// What the first four must stay below: max(1e-10, 100 ε ω_max t_end), with Gershgorin's upper
     /// bound on the fastest rate, sliding or not, as `ω_max`.
     pub bound: f64,
-    books: Books,
+    books: EnergyBalance,
 }
 
 impl Certificate {
@@ -233,7 +233,7 @@ pub struct EnergyHistory {
 #[must_use]
 pub fn check(model: &Model, motion: &GroundMotion, response: &Response) -> Certificate {
     // Nothing stops it.
-    check_while(model, motion, response, UNWATCHED).unwrap_or_else(|Stopped| unjudged(1e-10))
+    check_while(model, motion, response, NEVER_CANCELLED).unwrap_or_else(|Stopped| unjudged(1e-10))
 }
 
 /// [`check()`] as long as `go_on` says so, which is asked every few milliseconds.
@@ -244,7 +244,7 @@ pub fn check_while(
     model: &Model,
     motion: &GroundMotion,
     response: &Response,
-    go_on: GoOn<'_>,
+    go_on: Cancel<'_>,
 ) -> Result<Certificate, Stopped> {
     if let Some(table_y) = motion.horizontal_y_m_per_s2() {
         return plane::check(model, (motion, table_y), response, go_on);
@@ -279,7 +279,7 @@ fn unjudged(bound: f64) -> Certificate {
         demand_in_error: None,
         closest_call: None,
         bound,
-        books: Books::default(),
+        books: EnergyBalance::default(),
     }
 }
 

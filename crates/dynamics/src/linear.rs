@@ -1,7 +1,7 @@
 //! The linear system between two events: modes, Taylor series, maps over samples, polynomials.
 //!
 //! In stick and in slip the equations of motion (9)–(12) are affine with a load that is linear in
-//! time. [`System`] holds them in the structure's fixed-base modes; [`Series`] is the Taylor series of
+//! time. [`System`] holds them in the structure's fixed-base modes; [`ModalSeries`] is the Taylor series of
 //! their solution, [`Maps`] the same solution over eight samples; [`polynomial`] finds the first root
 //! and the extremes of what is made of them.
 
@@ -17,6 +17,6 @@ mod system;
 
 pub use frame::{FrameModes, shear_frame_frequencies, shear_frame_modes};
 pub use maps::{BATCH, Force, Maps, QUIET, Row, UnitResponses, Window};
-pub use series::{Load, MAX_RATE_STEP, Series, fading_part, orders};
+pub use series::{Load, MAX_RATE_STEP, ModalSeries, fading_part, orders};
 pub use solution::IntervalTables;
 pub use system::{StoreyDamping, System};

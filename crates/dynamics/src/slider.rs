@@ -16,11 +16,11 @@ mod rate;
 mod series;
 mod stop;
 
-pub(crate) use branch::{Affine, EXITS, Exit, Fading, Reached, TwoBranches};
+pub(crate) use branch::{Affine, BranchEnd, EXITS, Exit, Fading, TwoBranches};
 pub(crate) use branch::{Restraint, Restraints, SlipForce};
 pub use friction::Friction;
 pub(crate) use hold::{Disc, Hold};
-pub(crate) use isotropic::Kinetic;
+pub(crate) use isotropic::IsotropicFriction;
 pub(crate) use law::{Law, Memory};
 pub(crate) use pressure::Pressing;
 pub use pressure::PressureLaw;

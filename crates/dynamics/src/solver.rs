@@ -21,7 +21,7 @@ mod windows;
 use crate::error::SolveError;
 use crate::model::Model;
 use crate::motion::GroundMotion;
-use crate::progress::{GoOn, UNWATCHED};
+use crate::progress::{Cancel, NEVER_CANCELLED};
 use crate::response::{Method, Response};
 
 pub use crate::linear::{FrameModes, shear_frame_modes};
@@ -53,7 +53,7 @@ pub use walk::EVENTS_PER_INTERVAL_LIMIT;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn exact(model: &Model, motion: &GroundMotion) -> Result<Response, SolveError> {
-    prepared::solve_once(model, motion, true, UNWATCHED)
+    prepared::solve_once(model, motion, true, NEVER_CANCELLED)
 }
 
 /// Exact response without a history: peaks, counts and events only.
@@ -61,7 +61,7 @@ pub fn exact(model: &Model, motion: &GroundMotion) -> Result<Response, SolveErro
 /// # Errors
 /// [`SolveError`] with time and cause.
 pub fn exact_demands(model: &Model, motion: &GroundMotion) -> Result<Response, SolveError> {
-    prepared::solve_once(model, motion, false, UNWATCHED)
+    prepared::solve_once(model, motion, false, NEVER_CANCELLED)
 }
 
 /// [`exact_demands`] as long as `go_on` says so, which is asked every few milliseconds.
@@ -71,7 +71,7 @@ pub fn exact_demands(model: &Model, motion: &GroundMotion) -> Result<Response, S
 pub fn exact_demands_while(
     model: &Model,
     motion: &GroundMotion,
-    go_on: GoOn<'_>,
+    go_on: Cancel<'_>,
 ) -> Result<Response, SolveError> {
     prepared::solve_once(model, motion, false, go_on)
 }
@@ -99,7 +99,7 @@ pub fn stepwise_within(
     motion: &GroundMotion,
     tolerance_m_per_s2: f64,
 ) -> Result<Response, SolveError> {
-    stepwise::solve(model, motion, tolerance_m_per_s2, UNWATCHED)
+    stepwise::solve(model, motion, tolerance_m_per_s2, NEVER_CANCELLED)
 }
 
 /// Response by either method, with its history.
@@ -150,7 +150,7 @@ pub fn solve_while(
     model: &Model,
     motion: &GroundMotion,
     method: Method,
-    go_on: GoOn<'_>,
+    go_on: Cancel<'_>,
 ) -> Result<Response, SolveError> {
     match method {
         Method::Exact => prepared::solve_once(model, motion, true, go_on),

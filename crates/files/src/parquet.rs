@@ -135,7 +135,7 @@ pub(crate) fn at(path: &Path) -> impl Fn(ParquetError) -> FileError + '_ {
 
 /// A table in a file, with what stands about its columns and rows: that is read once.
 #[derive(Clone, Debug)]
-pub(crate) struct Table {
+pub(crate) struct ParquetTable {
     pub(crate) path: PathBuf,
     metadata: Arc<ParquetMetaData>,
     /// The columns that are numbers or texts, and where they stand among all.
@@ -143,7 +143,7 @@ pub(crate) struct Table {
     places: Vec<usize>,
 }
 
-impl Table {
+impl ParquetTable {
     /// # Errors
     /// [`FileError::Read`], and [`FileError::Table`] for what is no Parquet file.
     pub(crate) fn of(path: &Path) -> Result<Self, FileError> {
@@ -191,7 +191,7 @@ impl Table {
     /// Its columns, of no more rows than the first `most`.
     ///
     /// # Errors
-    /// As [`Table::cells`].
+    /// As [`ParquetTable::cells`].
     pub(crate) fn columns(&self, most: usize) -> Result<Vec<Column>, FileError> {
         let column = |(index, field): (usize, &Field)| {
             let (name, unit) = (field.name.clone(), field.unit.clone());
@@ -200,7 +200,7 @@ impl Table {
         self.fields.iter().enumerate().map(column).collect()
     }
 
-    /// All cells of one of [`Table::fields`].
+    /// All cells of one of [`ParquetTable::fields`].
     ///
     /// # Errors
     /// [`FileError::Read`], and [`FileError::Table`] for a column that is damaged.
@@ -368,7 +368,7 @@ pub fn write_columns(path: &Path, columns: &[Column]) -> Result<(), FileError> {
 /// # Errors
 /// [`FileError::Read`], and [`FileError::Table`] for what is no Parquet file.
 pub fn read_columns(path: &Path) -> Result<Vec<Column>, FileError> {
-    Table::of(path)?.columns(usize::MAX)
+    ParquetTable::of(path)?.columns(usize::MAX)
 }
 
 #[cfg(test)]
@@ -416,7 +416,7 @@ mod tests {
         table.row_group([&x(0, 7).cells]).unwrap();
         table.row_group([&x(7, 10).cells]).unwrap();
         table.finish().unwrap();
-        let table = Table::of(&path).unwrap();
+        let table = ParquetTable::of(&path).unwrap();
         assert_eq!(table.rows(), 10);
         for most in [0, 3, 7, 9, 10] {
             assert_eq!(table.columns(most).unwrap(), [x(0, most as i32)]);

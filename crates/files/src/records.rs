@@ -52,7 +52,7 @@ pub(crate) fn understood(
     if !bytes.starts_with(PARQUET) || options.format.is_some() {
         return Ok(record::read(&name, bytes, options)?);
     }
-    let table = parquet::Table::of(path)?;
+    let table = parquet::ParquetTable::of(path)?;
     let columns = table.columns(usize::MAX)?;
     let numbers = columns.into_iter().filter(|column| matches!(column.cells, Cells::Numbers(_)));
     let columns = numbers.collect();

@@ -9,14 +9,14 @@ use slipstick::assessment::single::{Job, Outcome, described};
 use slipstick::error::{InputError, MotionError, SolveError};
 use slipstick::input::loaded::Loaded;
 use slipstick::input::{Analysis, MotionSource, RecordSource};
-use slipstick::progress::GoOn;
+use slipstick::progress::Cancel;
 use slipstick_report::Summary;
 
 use crate::error::{FileError, reason};
 use crate::load::{
     AlongYRequest, LoadedMotion, RecordRequest, SourceFile, VerticalRequest, load_record,
 };
-use crate::parquet::Table;
+use crate::parquet::ParquetTable;
 use crate::read::resolve;
 
 /// A job with what is known of its files.
@@ -110,7 +110,7 @@ impl OpenJob {
     pub fn run_while(
         &self,
         floor_spectra: bool,
-        go_on: GoOn<'_>,
+        go_on: Cancel<'_>,
     ) -> Result<(Outcome, Summary), JobError> {
         let outcome = self.job.run_while(floor_spectra, go_on)?;
         Ok(self.summed(outcome))
@@ -147,7 +147,7 @@ pub fn time_left(
 #[must_use]
 pub fn reading_time(path: &Path, budget: Duration, read: impl Fn(&[u8])) -> Option<Duration> {
     let file = path.metadata().ok().filter(|file| file.is_file())?;
-    if let Ok(table) = Table::of(path) {
+    if let Ok(table) = ParquetTable::of(path) {
         let rows = |most| table.columns(most).ok().map(|_| ());
         return time_left([1 << 12, table.rows()], budget, rows);
     }

@@ -15,7 +15,7 @@ use slipstick::laboratory::identify::IdentifyError;
 use slipstick::laboratory::measured::MeasuredError;
 use slipstick::laboratory::shaking_table::TableError;
 use slipstick::notice::{Notice, Severity};
-use slipstick::requests::Door;
+use slipstick::requests::FrontEnd;
 use slipstick_files::{FileError, JobError, LaboratoryError, StudyError};
 
 /// An exception of the package with fields.
@@ -87,7 +87,7 @@ pub(crate) fn of_unit(py: Python<'_>, path: &str, error: &UnitError) -> PyErr {
 
 /// A field of a request that cannot be: it is a keyword here.
 pub(crate) fn of_choice(py: Python<'_>, error: &ChoiceError) -> PyErr {
-    let error = Door::Python.says(error);
+    let error = FrontEnd::Python.says(error);
     exception(py, "InputError", &error.to_string(), |fields| {
         fields.set_item("path", &error.what)?;
         fields.set_item("expected", &error.expected)?;

@@ -4,7 +4,7 @@ use pyo3::prelude::*;
 use slipstick::assessment::grid;
 use slipstick::input::{self, Override, dimension_of};
 use slipstick::motion::intensity::LevelMeasure;
-use slipstick::requests::{Door, Field, Kind, Request, Takes};
+use slipstick::requests::{Field, FrontEnd, Kind, Request, Takes};
 use slipstick::units::{Dimension, Unit, all};
 
 use crate::errors::{of_argument, of_assessment, of_choice, of_input};
@@ -30,7 +30,8 @@ pub(crate) fn fields(kind: &str) -> Vec<(String, bool, &'static str, &'static st
         let many = field.takes == Takes::Many;
         (field.name.replace('-', "_"), many, field.default, field.about)
     };
-    Kind::of_name(kind).map_or_else(Vec::new, |kind| kind.offered(Door::Python).map(of).collect())
+    Kind::of_name(kind)
+        .map_or_else(Vec::new, |kind| kind.offered(FrontEnd::Python).map(of).collect())
 }
 
 /// Levels of a measure that are written as one text, a list or a range, as a plan lists them.

@@ -12,7 +12,7 @@ use pyo3::types::PyDict;
 use slipstick::assessment::single::{self, Job, Outcome, Solved};
 use slipstick::error::{SolveError, Stopped};
 use slipstick::notice::{Notice, Severity};
-use slipstick::progress::GoOn;
+use slipstick::progress::Cancel;
 use slipstick::response::{History, Response as Answer};
 use slipstick_files::{JobError, LoadedMotion, OpenJob};
 use slipstick_report::figures::{self, Drawn};
@@ -53,7 +53,7 @@ pub(crate) fn run(
     }
     let start = Instant::now();
     let (of, on) = (model.get(), motion.map(|motion| &motion.get().0));
-    let work = |go_on: GoOn<'_>| -> Result<(OnceLock<OpenJob>, Answers), JobError> {
+    let work = |go_on: Cancel<'_>| -> Result<(OnceLock<OpenJob>, Answers), JobError> {
         // Copies of long motions take their time too.
         let ask = || match go_on() {
             ControlFlow::Continue(()) => Ok(()),

@@ -8,7 +8,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use pyo3::prelude::*;
-use slipstick::progress::GoOn;
+use slipstick::progress::Cancel;
 use slipstick::study::engine::Engine;
 use slipstick_files::on_threads;
 
@@ -21,7 +21,7 @@ const TURN: Duration = Duration::from_millis(50);
 /// go on. A signal stops the work and is raised.
 pub(crate) fn interruptible<T: Send>(
     py: Python<'_>,
-    work: impl FnOnce(GoOn<'_>) -> T + Send,
+    work: impl FnOnce(Cancel<'_>) -> T + Send,
 ) -> PyResult<T> {
     py.detach(|| {
         let (last, raised) = (Cell::new(Instant::now()), RefCell::new(None));

@@ -26,7 +26,7 @@ pub use header::bracket;
 use header::{Header, Name, Unit, is_comment};
 use layout::Layout;
 use slipstick_dynamics::notice::{Notice, NoticeKind};
-use table::Table;
+use table::TextTable;
 pub(super) use target::read as read_target;
 
 /// Most columns of a record: each that is motion is a channel, of which much is computed.
@@ -35,7 +35,7 @@ const MAX_COLUMNS: usize = 1000;
 /// Reads the file; channels are named by the header, else `column 1`, `column 2`, ….
 pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError> {
     let header = Header::of(text)?;
-    let table = Table::read(text, &header)?;
+    let table = TextTable::read(text, &header)?;
     let given_s = table.given_step(text, options.dt_s)?;
     let layout = layout::of(text, &header, &table, given_s)?;
     let (series, mut warnings) = series(text, &header, &table, &layout, options.units)?;
@@ -64,7 +64,7 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
             "a time history, not a spectrum: one that is below 0 at times, or 0 at its end";
         return Err(table.error_found(text, expected, "uneven steps and no value below 0"));
     }
-    let channel = |series: Series| {
+    let channel = |series: ColumnSeries| {
         let units = series.units?;
         Some(Channel {
             name: series.name,
@@ -84,7 +84,7 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
 }
 
 /// Values of one channel as they stand, and their units if they are known.
-struct Series {
+struct ColumnSeries {
     name: String,
     values: Vec<f64>,
     units: Option<Units>,
@@ -94,10 +94,10 @@ struct Series {
 fn series(
     text: &Text,
     header: &Header,
-    table: &Table,
+    table: &TextTable,
     layout: &Layout,
     given: Option<Units>,
-) -> Result<(Vec<Series>, Vec<Notice>), RecordError> {
+) -> Result<(Vec<ColumnSeries>, Vec<Notice>), RecordError> {
     let mut warnings = layout.notices.clone();
     if layout.wrapped {
         let message = format!(
@@ -106,7 +106,7 @@ fn series(
         );
         warnings.push(Notice::new(NoticeKind::ReadAlongLines, message));
         let (name, values) = ("column 1".to_owned(), table.cells.clone());
-        return Ok((vec![Series { name, values, units: given }], warnings));
+        return Ok((vec![ColumnSeries { name, values, units: given }], warnings));
     }
     if table.columns > MAX_COLUMNS {
         let expected = format!("at most {MAX_COLUMNS} columns");
@@ -150,7 +150,7 @@ fn series(
                 format!("the offset of \"{name}\" that the file states, {offset}, was taken off");
             warnings.push(Notice::new(NoticeKind::MeanRemoved, message));
         }
-        series.push(Series { name, values, units });
+        series.push(ColumnSeries { name, values, units });
     }
     if series.is_empty() {
         let expected = "a column of acceleration, velocity or displacement";

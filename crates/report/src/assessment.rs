@@ -17,4 +17,4 @@ pub(crate) mod sheet;
 pub mod spectrum;
 
 pub use crate::report::Provenance;
-pub use sheet::{Sheet, Table};
+pub use sheet::{Sheet, SheetTable};

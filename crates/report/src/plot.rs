@@ -105,7 +105,7 @@ pub enum Shape {
 
 /// A line of a panel.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Series {
+pub struct PlotSeries {
     /// Its name in the legend; empty for none.
     pub label: String,
     /// How it is drawn.
@@ -137,7 +137,7 @@ pub struct Panel {
     /// Height of the frame.
     pub height: f64,
     /// What is drawn, the first lowest.
-    pub series: Vec<Series>,
+    pub series: Vec<PlotSeries>,
     /// Level lines.
     pub limits: Vec<Limit>,
     /// A point to ring, in the units of the axes: the tabled peak.

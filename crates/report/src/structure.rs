@@ -8,7 +8,7 @@ use crate::display::{DisplayUnits, Quantity};
 use crate::json::{each, pretty};
 use crate::laboratory::text::padded;
 use crate::number::significant;
-use crate::plot::{Axis, Figure, Layout, Panel, Series, Style, Svg, column};
+use crate::plot::{Axis, Figure, Layout, Panel, PlotSeries, Style, Svg, column};
 use crate::view;
 
 const AXES: [&str; 2] = ["x", "y"];
@@ -190,7 +190,7 @@ impl ModalInfo<'_> {
                 line(label, style, points)
             })
         };
-        let mut lines: Vec<Series> =
+        let mut lines: Vec<PlotSeries> =
             [series(0, Style::MAIN), series(1, Style::DASHED)].into_iter().flatten().collect();
         let largest =
             lines.iter().flat_map(|line| &line.points).fold(0.0, |m: f64, p| m.max(p[0].abs()));

@@ -9,7 +9,7 @@ use slipstick::study::{LevelSummary, StudySummary};
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 
 use crate::VERSION;
-use crate::assessment::sheet::{Table, cell};
+use crate::assessment::sheet::{SheetTable, cell};
 use crate::display::{DisplayUnits, Quantity, Unit};
 use crate::laboratory::text::aligned;
 use crate::markup::shortened;
@@ -41,7 +41,7 @@ pub fn table(summary: &StudySummary, display: DisplayUnits) -> String {
 }
 
 /// A table a demand, of those that engineers ask for first: a row a level.
-fn tables(summary: &StudySummary, display: DisplayUnits) -> Vec<Table> {
+fn tables(summary: &StudySummary, display: DisplayUnits) -> Vec<SheetTable> {
     let bounded = summary.rows.iter().any(|row| row.friction.is_some());
     let measure = summary.measure.as_ref().map_or("Scale", |(name, _)| name.as_str());
     let heads = ["Runs", "16 %", "Median", "84 %", "Mean", "Largest", "Record", "Run"];

@@ -8,7 +8,7 @@ use slipstick::assessment::AssessmentError;
 use slipstick::error::ChoiceError;
 use slipstick::error::InputError;
 #[cfg(feature = "whole")]
-use slipstick::requests::Door;
+use slipstick::requests::FrontEnd;
 use slipstick_report::json::pretty;
 use slipstick_report::view;
 use wasm_bindgen::JsValue;
@@ -50,7 +50,7 @@ impl Failure {
 
     /// A field of a form that cannot be.
     pub fn choice(error: &ChoiceError) -> Self {
-        Self::of(Door::Page.says(error))
+        Self::of(FrontEnd::Page.says(error))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use slipstick_report::figures::Drawn;
 use slipstick_report::json::{Serialize, each};
-use slipstick_report::plot::{Axis, Layout, Limit, Panel, Series, Shape, Style};
+use slipstick_report::plot::{Axis, Layout, Limit, Panel, PlotSeries, Shape, Style};
 use slipstick_report::view;
 
 /// `{id, caption, title, layout, panels, shaded}`; points as x, y, x, y …, null where a value is none.
@@ -45,7 +45,7 @@ fn axis(axis: &Axis) -> impl Serialize {
     }
 }
 
-fn series(series: &Series) -> impl Serialize {
+fn series(series: &PlotSeries) -> impl Serialize {
     let (shape, fill) = match series.shape {
         Shape::History => ("history", ""),
         Shape::Area(fill) => ("area", fill),

@@ -14,7 +14,7 @@ use slipstick::input::unfit::refuse_unfit;
 use slipstick::input::{Analysis, MotionSource, Override};
 use slipstick::notice::{Notice, NoticeKind};
 use slipstick::record::{self, Options};
-use slipstick::requests::{Answer, Door, Field, Kind, On, Request, Results, Runs, Takes};
+use slipstick::requests::{Answer, Field, FrontEnd, Kind, On, Request, Results, Runs, Takes};
 use slipstick::response::Method;
 use slipstick::study::engine::Engine;
 use slipstick::study::summary::{Rows, Take};
@@ -242,7 +242,7 @@ pub fn form(
     let demands = models.map_err(|error| Failure::assessment(&error, text))?.columns();
     let mut fields: Vec<&Field> = Vec::new();
     let kinds = Kind::of_name(what).map_or_else(Vec::new, requests);
-    for field in kinds.into_iter().flat_map(|kind| kind.offered(Door::Page)) {
+    for field in kinds.into_iter().flat_map(|kind| kind.offered(FrontEnd::Page)) {
         if fields.iter().all(|known| known.name != field.name) {
             fields.push(field);
         }
@@ -256,7 +256,7 @@ pub fn form(
         };
         view! {
             name: field.name,
-            label: Door::Page.calls(field.name),
+            label: FrontEnd::Page.calls(field.name),
             takes,
             words,
             default: field.default,

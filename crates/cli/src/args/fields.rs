@@ -4,7 +4,7 @@ use clap::builder::PossibleValuesParser;
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 use slipstick::error::ChoiceError;
-use slipstick::requests::{Door, Field, Kind, Request, Takes};
+use slipstick::requests::{Field, FrontEnd, Kind, Request, Takes};
 
 use crate::failure::Failure;
 
@@ -28,7 +28,7 @@ impl<const KIND: usize> Fields<KIND> {
         match self.0.iter().find(|(name, _)| !of_other(name)) {
             None => Ok(()),
             Some((name, _)) => {
-                let option = Door::Command.calls(name);
+                let option = FrontEnd::Command.calls(name);
                 Err(Failure::Message(format!("{option}: expected {expected}")))
             }
         }

@@ -1,6 +1,6 @@
 //! Commands beside `run`, help, units of the table, what is said and what is not.
 
-use slipstick::requests::{Door, Kind};
+use slipstick::requests::{FrontEnd, Kind};
 
 use super::support::{BLOCK, Folder, RECORD, RECORDED, text};
 
@@ -58,7 +58,7 @@ fn options_are_the_fields_of_the_requests() {
             .filter_map(|line| line.trim_start().trim_start_matches("-j, ").strip_prefix("--"))
             .filter_map(|line| line.split(|c: char| !(c.is_alphanumeric() || c == '-')).next())
             .collect();
-        for field in kind.offered(Door::Command) {
+        for field in kind.offered(FrontEnd::Command) {
             assert!(options.contains(&field.name), "{command:?} lacks --{}", field.name);
         }
         // Besides them: what goes in, and what becomes of the answer.
@@ -77,7 +77,7 @@ fn options_are_the_fields_of_the_requests() {
         let fields = || Kind::ALL.into_iter().flat_map(Kind::fields).map(|field| field.name);
         for option in options.iter().filter(|option| **option != "out") {
             let known = files.contains(option) || others.contains(option);
-            let own = kind.offered(Door::Command).any(|field| field.name == *option);
+            let own = kind.offered(FrontEnd::Command).any(|field| field.name == *option);
             let of_run = command == ["run"] && fields().any(|name| name == *option);
             assert!(known || own || of_run, "{command:?} has --{option}");
         }

@@ -159,7 +159,7 @@ pub fn run_fragility_by(
     let columns = Columns { table, ..columns };
     let (groups, unit) = rows::groups(columns, by)?;
     let mut found = Vec::with_capacity(groups.len());
-    for rows::Group { value, text, rows } in groups {
+    for rows::DesignGroup { value, text, rows } in groups {
         let table = table.select(&rows);
         let run = match fit(request, Columns { table: &table, ..columns }, engine) {
             Ok(run) => Ok(run),
@@ -201,10 +201,10 @@ pub(super) fn design_groups(
         Some(by) => rows::groups(columns, by)?,
         None => {
             let rows = (0..kept.len()).collect();
-            (vec![rows::Group { value: f64::NAN, text: String::new(), rows }], String::new())
+            (vec![rows::DesignGroup { value: f64::NAN, text: String::new(), rows }], String::new())
         }
     };
-    let group = |rows::Group { value, text, rows }: rows::Group| {
+    let group = |rows::DesignGroup { value, text, rows }: rows::DesignGroup| {
         let of_group = of_kept.select(&rows);
         let averaged = rows::averaged(Columns { table: &of_group, ..columns })?;
         let designs = rows.into_iter().map(|row| kept[row]).collect();

@@ -8,7 +8,7 @@ use crate::input::{Analysis, Bound, MotionSource};
 use crate::model::Model;
 use crate::motion::{GroundMotion, Sine, spectrum};
 use crate::notice::Notice;
-use crate::progress::{GoOn, UNWATCHED};
+use crate::progress::{Cancel, NEVER_CANCELLED};
 use crate::response::{History, Method, Response};
 use crate::solver;
 use crate::study::notices::{coarse_sampling, highest_hz, longest_step_s, suspicious};
@@ -111,14 +111,14 @@ impl Job {
     /// # Errors
     /// [`SolveError`] with time and cause.
     pub fn run(&self, floor_spectra: bool) -> Result<Outcome, SolveError> {
-        self.run_while(floor_spectra, UNWATCHED)
+        self.run_while(floor_spectra, NEVER_CANCELLED)
     }
 
     /// The same as long as `go_on` says so, which is asked every few milliseconds.
     ///
     /// # Errors
     /// [`SolveError::Stopped`] where it says no, otherwise [`SolveError`] with time and cause.
-    pub fn run_while(&self, floor_spectra: bool, go_on: GoOn<'_>) -> Result<Outcome, SolveError> {
+    pub fn run_while(&self, floor_spectra: bool, go_on: Cancel<'_>) -> Result<Outcome, SolveError> {
         let nominal = self.solve(&self.analysis.model, go_on)?;
         self.judge(nominal, floor_spectra, go_on)
     }
@@ -128,14 +128,14 @@ impl Job {
     /// # Errors
     /// [`SolveError`] with time and cause.
     pub fn run_on(&self, nominal: Response, floor_spectra: bool) -> Result<Outcome, SolveError> {
-        self.judge(nominal, floor_spectra, UNWATCHED)
+        self.judge(nominal, floor_spectra, NEVER_CANCELLED)
     }
 
     fn judge(
         &self,
         nominal: Response,
         floor_spectra: bool,
-        go_on: GoOn<'_>,
+        go_on: Cancel<'_>,
     ) -> Result<Outcome, SolveError> {
         let model = &self.analysis.model;
         let nominal = self.judged(model.clone(), 1.0, nominal, go_on)?;
@@ -157,7 +157,7 @@ impl Job {
         Ok(Outcome { nominal, bounds, floor_spectra })
     }
 
-    fn solve(&self, model: &Model, go_on: GoOn<'_>) -> Result<Response, SolveError> {
+    fn solve(&self, model: &Model, go_on: Cancel<'_>) -> Result<Response, SolveError> {
         solver::solve_while(model, &self.motion, self.analysis.method, go_on)
     }
 
@@ -166,7 +166,7 @@ impl Job {
         model: Model,
         friction_factor: f64,
         response: Response,
-        go_on: GoOn<'_>,
+        go_on: Cancel<'_>,
     ) -> Result<Judged, SolveError> {
         let certificate = check::check_while(&model, &self.motion, &response, go_on)?;
         Ok(Judged { friction_factor, model, response, certificate })
@@ -223,7 +223,7 @@ pub fn solve_all(
     analysis: &Analysis,
     motion: &GroundMotion,
     history: bool,
-    go_on: GoOn<'_>,
+    go_on: Cancel<'_>,
 ) -> Result<Vec<Solved>, SolveError> {
     let solved = |bound: Option<Bound>| {
         let model = bound.map_or_else(|| analysis.model.clone(), |bound| bound.of(&analysis.model));
@@ -289,7 +289,7 @@ fn of_tail(analysis: &Analysis, error: &MotionError) -> InputError {
 fn floor_spectra(
     motion: &GroundMotion,
     history: &History,
-    go_on: GoOn<'_>,
+    go_on: Cancel<'_>,
 ) -> Result<FloorSpectra, Stopped> {
     let periods_s: Vec<f64> =
         (0..120).map(|i| 0.02 * libm::pow(200.0, f64::from(i) / 119.0)).collect();

@@ -9,7 +9,7 @@ use super::keys::MODEL;
 use super::overrides::kind_of;
 use super::reader::{LeafValue, Values};
 use super::schema::Kind;
-use super::tree::{self, Node, Sources, Table, Value};
+use super::tree::{self, Node, Sources, TomlTable, Value};
 use super::{Override, build, write};
 use crate::error::InputError;
 use crate::numerics::sort;
@@ -59,7 +59,7 @@ fn read(source_name: &str, text: &str, set: &[Override]) -> Result<Values, Input
     Ok(values)
 }
 
-fn tree_of(source_name: &str, text: &str) -> Result<(Sources, Table), InputError> {
+fn tree_of(source_name: &str, text: &str) -> Result<(Sources, TomlTable), InputError> {
     let mut sources = Sources::default();
     let file = sources.add(source_name, text);
     let root = tree::parse_document(&sources, file)?;
@@ -120,7 +120,7 @@ fn edited(source_name: &str, text: &str, set: &Override) -> Option<String> {
 }
 
 /// The list that a path would make one item longer: `storey` of `storey.3` where there are two.
-fn next_of<'a>(root: &Table, path: &'a str) -> Option<&'a str> {
+fn next_of<'a>(root: &TomlTable, path: &'a str) -> Option<&'a str> {
     let (list, number) = path.split_once('.')?;
     let Kind::Sections(..) = kind_of(list)? else { return None };
     let count = match root.get(list).map(|entry| &entry.node.value) {
@@ -152,7 +152,7 @@ fn literal(set: &Override) -> Option<String> {
 }
 
 /// What stands at a path, storeys counted from 1.
-fn find<'a>(root: &'a Table, path: &str) -> Option<&'a Node> {
+fn find<'a>(root: &'a TomlTable, path: &str) -> Option<&'a Node> {
     let mut keys = path.split('.');
     let mut node = &root.get(keys.next()?)?.node;
     for key in keys {
@@ -166,7 +166,7 @@ fn find<'a>(root: &'a Table, path: &str) -> Option<&'a Node> {
 }
 
 /// Where the keys stand that the first table has and the second has not.
-fn taken_out(before: &Table, after: &Table, gone: &mut Vec<Range<usize>>) {
+fn taken_out(before: &TomlTable, after: &TomlTable, gone: &mut Vec<Range<usize>>) {
     for entry in &before.0 {
         let Some(other) = after.get(&entry.name) else {
             gone.push(entry.key.span.start..entry.node.spot.span.end);

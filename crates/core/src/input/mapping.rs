@@ -10,7 +10,7 @@
 //! zero                 = "first 2 s"             # all sensors are at rest there; or "as measured"
 //! ```
 
-use super::tree::{self, Sources, Spot, Value};
+use super::tree::{self, SourceSpan, Sources, Value};
 use crate::error::{InputError, cut, similar};
 use crate::units::{self, Dimension, Unit};
 
@@ -128,7 +128,7 @@ impl Channel {
 pub struct ColumnRef {
     /// Its name, or its number from 1 after a `#`.
     pub name: String,
-    spot: Spot,
+    spot: SourceSpan,
 }
 
 /// Where a quantity comes from: `A [− B]` in a unit, times a factor, its clock shifted.
@@ -148,7 +148,7 @@ pub struct MappedColumn {
     pub factor: f64,
     /// What is added to the times of this quantity, in s.
     pub offset_s: f64,
-    spot: Spot,
+    spot: SourceSpan,
 }
 
 /// What is known of the zero of sensors that no entry states.
@@ -172,7 +172,7 @@ pub struct Mapping {
     pub dt_s: Option<f64>,
     /// The zero of the sensors.
     pub zero: Zero,
-    zero_spot: Option<Spot>,
+    zero_spot: Option<SourceSpan>,
     sources: Sources,
 }
 
@@ -207,18 +207,24 @@ impl Mapping {
         for option in options {
             let source = mapping.sources.add(&format!("mapping {}", cut(option)), option);
             let Some((name, value)) = option.split_once('=') else {
-                let spot = Spot { source, span: option.len()..option.len() };
+                let spot = SourceSpan { source, span: option.len()..option.len() };
                 return Err(mapping.sources.error(&spot, "", "QUANTITY=COLUMN", "no \"=\""));
             };
-            let key = Spot { source, span: 0..name.len() };
+            let key = SourceSpan { source, span: 0..name.len() };
             let blanks = value.len() - value.trim_start().len();
-            let at = Spot { source, span: name.len() + 1 + blanks..option.len() };
+            let at = SourceSpan { source, span: name.len() + 1 + blanks..option.len() };
             mapping.add(name.trim(), &key, value.trim(), &at)?;
         }
         Ok(mapping)
     }
 
-    fn add(&mut self, name: &str, key: &Spot, value: &str, at: &Spot) -> Result<(), InputError> {
+    fn add(
+        &mut self,
+        name: &str,
+        key: &SourceSpan,
+        value: &str,
+        at: &SourceSpan,
+    ) -> Result<(), InputError> {
         if name == "zero" {
             self.zero = parse_zero(value).ok_or_else(|| {
                 let expected = "\"first 2 s\", in which all is at rest, or \"as measured\"";
@@ -264,9 +270,14 @@ impl Mapping {
 
     /// Reads `COLUMN [- COLUMN] [[UNIT]] [- ZERO] [* FACTOR] [@ SHIFT]`; the zero may also stand before
     /// the unit.
-    fn entry(&self, channel: Channel, text: &str, at: &Spot) -> Result<MappedColumn, InputError> {
+    fn entry(
+        &self,
+        channel: Channel,
+        text: &str,
+        at: &SourceSpan,
+    ) -> Result<MappedColumn, InputError> {
         let path = channel.name();
-        let spot = |from: usize, to: usize| Spot {
+        let spot = |from: usize, to: usize| SourceSpan {
             source: at.source,
             span: at.span.start + from..at.span.start + to,
         };
@@ -385,7 +396,7 @@ impl Mapping {
     /// The error at the zero of all sensors.
     #[must_use]
     pub fn error_at_zero(&self, expected: &str, found: String) -> InputError {
-        let spot = self.zero_spot.clone().unwrap_or(Spot { source: 0, span: 0..0 });
+        let spot = self.zero_spot.clone().unwrap_or(SourceSpan { source: 0, span: 0..0 });
         self.sources.error(&spot, "zero", expected, found)
     }
 

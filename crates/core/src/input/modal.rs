@@ -7,7 +7,7 @@
 
 use core::fmt::Write as _;
 
-use super::tree::{Sources, Spot};
+use super::tree::{SourceSpan, Sources};
 use crate::error::InputError;
 use crate::model::ROUNDED_MASS;
 
@@ -205,7 +205,7 @@ fn wanted(options: &ModalOptions, names: &[&str]) -> Option<String> {
 /// Refuses joints that were asked for and are not there.
 fn refuse_missing(
     sources: &Sources,
-    spot: &Spot,
+    spot: &SourceSpan,
     options: &ModalOptions,
     points: &[ModalPoint],
 ) -> Result<(), InputError> {
@@ -221,7 +221,7 @@ fn refuse_missing(
 /// A period as a mode has it: finite, > 0, at most that of the mode before.
 fn in_order(
     sources: &Sources,
-    spot: &Spot,
+    spot: &SourceSpan,
     period_s: f64,
     before: Option<&ModalRow>,
 ) -> Result<f64, InputError> {

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::keys::MAX_MODES;
-use super::tree::{Entry, Node, Sources, Spot, Table, Value};
+use super::tree::{Entry, Node, SourceSpan, Sources, TomlTable, Value};
 use crate::error::{InputError, cut, similar};
 
 /// What a column holds.
@@ -20,7 +20,7 @@ enum Column {
 /// A cell: its text and where it stands.
 struct Cell<'a> {
     text: &'a str,
-    spot: Spot,
+    spot: SourceSpan,
 }
 
 /// Columns of a mode by their names: the key of a mode, and whether it has a unit.
@@ -49,7 +49,7 @@ const UNITLESS: [&str; 2] = ["period", "frequency"];
 /// Puts the modes of a table in the place of `structure.modes`, which names it.
 pub(super) fn expand(
     sources: &mut Sources,
-    root: &mut Table,
+    root: &mut TomlTable,
     name: &str,
     text: &str,
 ) -> Result<(), InputError> {
@@ -85,11 +85,11 @@ pub(super) fn expand(
             let node = Node { spot: spot.clone(), value };
             Some(Entry { name: (*name).to_owned(), key: spot, node })
         });
-        let spot = row.first().map_or(Spot::default(), |(_, cell)| cell.spot.clone());
-        Node { spot, value: Value::Table(Table(entries.collect())) }
+        let spot = row.first().map_or(SourceSpan::default(), |(_, cell)| cell.spot.clone());
+        Node { spot, value: Value::Table(TomlTable(entries.collect())) }
     };
     let modes = rows.iter().map(|row| table(&columns, row)).collect();
-    let spot = Spot { source, span: 0..0 };
+    let spot = SourceSpan { source, span: 0..0 };
     let list = |name: &str, nodes: Vec<Node>| Entry {
         name: name.to_owned(),
         key: key.clone(),
@@ -130,7 +130,7 @@ pub(super) fn expand(
                 let value = Value::Text(name.clone());
                 let node = Node { spot: spot.clone(), value };
                 let named = Entry { name: "name".to_owned(), key: spot.clone(), node };
-                let value = Value::Table(Table(vec![named, shape]));
+                let value = Value::Table(TomlTable(vec![named, shape]));
                 points.push(Node { spot: spot.clone(), value });
             }
         }
@@ -139,7 +139,7 @@ pub(super) fn expand(
 }
 
 /// Whether a point has a name, in lower case and with `_` for spaces.
-fn is_named(point: &Table, name: &str) -> bool {
+fn is_named(point: &TomlTable, name: &str) -> bool {
     let Some(Value::Text(own)) = point.get("name").map(|entry| &entry.node.value) else {
         return false;
     };
@@ -205,19 +205,19 @@ fn read<'a>(
         ),
     ] {
         if !has(wanted) {
-            let spot = Spot { source, span: at..at };
+            let spot = SourceSpan { source, span: at..at };
             return Err(sources.error(&spot, "", expected, "none"));
         }
     }
     let mut rows = Vec::new();
     for (at, line) in lines {
         if rows.len() == MAX_MODES {
-            let spot = Spot { source, span: at..at };
+            let spot = SourceSpan { source, span: at..at };
             return Err(sources.error(&spot, "", format!("at most {MAX_MODES} modes"), "more"));
         }
         let row = cells(line, at, separator, source);
         if row.len() != columns.len() {
-            let spot = Spot { source, span: at..at };
+            let spot = SourceSpan { source, span: at..at };
             let expected = format!("{} values, as the header has", columns.len());
             return Err(sources.error(&spot, "", expected, row.len().to_string()));
         }
@@ -239,7 +239,7 @@ fn read<'a>(
         rows.push(row.into_iter().zip(&columns).map(value).collect::<Result<_, _>>()?);
     }
     if rows.is_empty() {
-        let spot = Spot { source, span: text.len()..text.len() };
+        let spot = SourceSpan { source, span: text.len()..text.len() };
         return Err(sources.error(&spot, "", "a row for each mode", "none"));
     }
     Ok((columns, rows))
@@ -264,7 +264,7 @@ fn cells(line: &str, at: usize, separator: char, source: usize) -> Vec<Cell<'_>>
         let text = str::trim(part);
         let start = from + part.len() - part.trim_start().len();
         from += part.len() + separator.len_utf8();
-        Cell { text, spot: Spot { source, span: start..start + text.len() } }
+        Cell { text, spot: SourceSpan { source, span: start..start + text.len() } }
     };
     line.split(separator).map(cell).collect()
 }

@@ -6,7 +6,7 @@ use super::keys::MODEL;
 use super::modes;
 use super::paths::{NearestKey, join, matching, nearest_key, several};
 use super::schema::{Kind, Section};
-use super::tree::{self, Entry, Node, Sources, Spot, Table, Value};
+use super::tree::{self, Entry, Node, SourceSpan, Sources, TomlTable, Value};
 use crate::error::{InputError, cut};
 use crate::units::Dimension;
 
@@ -58,7 +58,7 @@ impl Override {
         let Some(equals) = text.find('=') else {
             let mut sources = Sources::default();
             let source = sources.add(&named(cut(text)), text);
-            let spot = Spot { source, span: text.len()..text.len() };
+            let spot = SourceSpan { source, span: text.len()..text.len() };
             return Err(sources.error(&spot, "", "PATH=VALUE", "no \"=\""));
         };
         let (text, option) = (text.to_owned(), option.to_owned());
@@ -152,9 +152,9 @@ impl Override {
         }
     }
 
-    fn path_spot(&self, source: usize) -> Spot {
+    fn path_spot(&self, source: usize) -> SourceSpan {
         let start = self.text.len() - self.text.trim_start().len();
-        Spot { source, span: start..start + self.path().len() }
+        SourceSpan { source, span: start..start + self.path().len() }
     }
 
     fn check_path(&self) -> Result<(), InputError> {
@@ -165,14 +165,18 @@ impl Override {
     }
 
     /// Sets the key in a tree; what excludes it is removed.
-    pub(super) fn apply(&self, sources: &mut Sources, root: &mut Table) -> Result<(), InputError> {
+    pub(super) fn apply(
+        &self,
+        sources: &mut Sources,
+        root: &mut TomlTable,
+    ) -> Result<(), InputError> {
         match self.put {
             Put::Remove => self.take_out(sources, root),
             put => self.put(sources, root, put),
         }
     }
 
-    fn take_out(&self, sources: &mut Sources, root: &mut Table) -> Result<(), InputError> {
+    fn take_out(&self, sources: &mut Sources, root: &mut TomlTable) -> Result<(), InputError> {
         let source = sources.add(&self.source_name(), &self.text);
         let spot = self.path_spot(source);
         let keys: Vec<&str> = self.path().split('.').collect();
@@ -187,17 +191,21 @@ impl Override {
     pub(super) fn replace(
         &self,
         sources: &mut Sources,
-        root: &mut Table,
+        root: &mut TomlTable,
     ) -> Result<(), InputError> {
         self.put(sources, root, Put::Replace)
     }
 
     /// Adds the key to a tree, in which nothing may exclude it.
-    pub(super) fn add(&self, sources: &mut Sources, root: &mut Table) -> Result<(), InputError> {
+    pub(super) fn add(
+        &self,
+        sources: &mut Sources,
+        root: &mut TomlTable,
+    ) -> Result<(), InputError> {
         self.put(sources, root, Put::Add)
     }
 
-    fn put(&self, sources: &mut Sources, root: &mut Table, put: Put) -> Result<(), InputError> {
+    fn put(&self, sources: &mut Sources, root: &mut TomlTable, put: Put) -> Result<(), InputError> {
         if let Some(table) = &self.modes {
             let name = self.text.get(self.value_at..).unwrap_or("");
             return modes::expand(sources, root, name, table);
@@ -210,7 +218,7 @@ impl Override {
             None => tree::parse_value(value.trim(), source, value_at),
             Some(number) => {
                 let written = value.trim().to_owned();
-                let spot = Spot { source, span: value_at..value_at + written.len() };
+                let spot = SourceSpan { source, span: value_at..value_at + written.len() };
                 let value = match si_unit(self.path()) {
                     "" => Value::Number(number, written),
                     _ => Value::Si(number, written),
@@ -285,10 +293,10 @@ type Mismatch = (String, String);
 
 /// Sets the key at the end of a path of keys in a table.
 fn set(
-    table: &mut Table,
+    table: &mut TomlTable,
     section: &'static Section,
     path: &[&str],
-    spot: &Spot,
+    spot: &SourceSpan,
     value: Node,
     put: Put,
 ) -> Result<(), Mismatch> {
@@ -310,7 +318,7 @@ fn set(
     let index = index.unwrap_or_else(|| {
         let empty = match key.kind.is_list() {
             true => Value::List(Vec::new()),
-            false => Value::Table(Table(Vec::new())),
+            false => Value::Table(TomlTable(Vec::new())),
         };
         let node = Node { spot: spot.clone(), value: empty };
         table.0.push(Entry { name: (*name).to_owned(), key: spot.clone(), node });
@@ -330,7 +338,7 @@ fn set(
             key: entry.key.clone(),
             node: same.clone(),
         });
-        entry.node.value = Value::Table(Table(each.collect()));
+        entry.node.value = Value::Table(TomlTable(each.collect()));
     }
     match (&mut entry.node.value, key.kind.section()) {
         (Value::Table(inner), Some(section)) => set(inner, section, rest, spot, value, put),
@@ -346,14 +354,14 @@ fn set_item(
     items: &mut Vec<Node>,
     inner: Option<&'static Section>,
     (name, path): (&str, &[&str]),
-    spot: &Spot,
+    spot: &SourceSpan,
     value: Node,
     (put, grows): (Put, bool),
 ) -> Result<(), Mismatch> {
     let [number, rest @ ..] = path else { return Ok(()) };
     if grows && *number == (items.len() + 1).to_string() {
         let empty = match inner {
-            Some(_) => Value::Table(Table(Vec::new())),
+            Some(_) => Value::Table(TomlTable(Vec::new())),
             None => Value::List(Vec::new()),
         };
         items.push(Node { spot: spot.clone(), value: empty });
@@ -385,7 +393,7 @@ fn set_item(
 }
 
 /// Removes the keys that exclude the one about to be set, and those that mean nothing without them.
-fn remove_excluded(table: &mut Table, section: &'static Section, name: &str, as_table: bool) {
+fn remove_excluded(table: &mut TomlTable, section: &'static Section, name: &str, as_table: bool) {
     for exclusive in section.choices {
         let is_set = |member: &&&str| match member.strip_suffix(".*") {
             Some(member) => as_table && member == name,
@@ -403,7 +411,7 @@ fn remove_excluded(table: &mut Table, section: &'static Section, name: &str, as_
 }
 
 /// Removes a key and those that mean nothing without it.
-fn remove(table: &mut Table, section: &'static Section, name: &str) {
+fn remove(table: &mut TomlTable, section: &'static Section, name: &str) {
     table.0.retain(|entry| entry.name != name);
     for key in section.keys.iter().filter(|key| key.beside == Some(name)) {
         remove(table, section, key.name);
@@ -411,7 +419,7 @@ fn remove(table: &mut Table, section: &'static Section, name: &str) {
 }
 
 /// Takes out what stands at the end of a path of keys; whether it stood there.
-fn taken_out(table: &mut Table, section: &'static Section, path: &[&str]) -> bool {
+fn taken_out(table: &mut TomlTable, section: &'static Section, path: &[&str]) -> bool {
     let [name, rest @ ..] = path else { return false };
     let Some(entry) = table.0.iter_mut().find(|entry| entry.name == *name) else { return false };
     let inner = section.key(name).and_then(|key| key.kind.section());

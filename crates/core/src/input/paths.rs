@@ -1,11 +1,11 @@
 //! Paths of keys, and the key that was probably meant.
 
 use super::schema::{self, Section};
-use super::tree::{Entry, Table, Value};
+use super::tree::{Entry, TomlTable, Value};
 use crate::error::edit_distance;
 
 /// The entry of a name in a group of excluding keys: `key.*` is that key given as a table.
-pub(super) fn matching<'a>(table: &'a Table, name: &str) -> Option<&'a Entry> {
+pub(super) fn matching<'a>(table: &'a TomlTable, name: &str) -> Option<&'a Entry> {
     match name.strip_suffix(".*") {
         None => table.get(name),
         Some(name) => table.get(name).filter(|entry| matches!(entry.node.value, Value::Table(_))),

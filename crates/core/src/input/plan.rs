@@ -6,7 +6,7 @@
 
 use super::reader::Values;
 use super::schema::Range;
-use super::tree::{self, Spot};
+use super::tree::{self, SourceSpan};
 use super::{MAX_TEXT_BYTES, dimension_of, utf8};
 use crate::error::InputError;
 use crate::motion::intensity::LevelMeasure;
@@ -280,7 +280,7 @@ impl Plan {
         let mut sources = tree::Sources::default();
         let file = sources.add(source_name, text);
         if text.len() > MAX_TEXT_BYTES {
-            let start = Spot { source: file, span: 0..0 };
+            let start = SourceSpan { source: file, span: 0..0 };
             let expected = format!("a plan of at most {MAX_TEXT_BYTES} bytes");
             return Err(sources.error(&start, "", expected, text.len().to_string()));
         }

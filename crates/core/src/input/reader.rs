@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::paths::{NearestKey, join, matching, nearest_key, several};
 use super::schema::{Key, Kind, Range, Section};
-use super::tree::{Entry, Node, Sources, Spot, Table, Value};
+use super::tree::{Entry, Node, SourceSpan, Sources, TomlTable, Value};
 use crate::error::{InputError, UnitError, cut, similar};
 use crate::numerics::sort;
 use crate::units::{self, Unit};
@@ -28,7 +28,7 @@ pub(super) struct Leaf {
     pub written: String,
     /// The SI unit of the value, empty where it has none.
     pub unit: &'static str,
-    pub spot: Spot,
+    pub spot: SourceSpan,
 }
 
 /// The checked values of a text by path, in the order of its description.
@@ -38,7 +38,7 @@ pub(super) struct Values {
     sources: Arc<Sources>,
     leaf_of_path: Arc<BTreeMap<String, usize>>,
     /// Tables and lists: where they stand and how many items a list has.
-    tables: Arc<BTreeMap<String, (Spot, usize)>>,
+    tables: Arc<BTreeMap<String, (SourceSpan, usize)>>,
     /// What other readers are to judge, as it stands.
     specials: Arc<BTreeMap<String, Node>>,
     /// Numbers that took the place of those of leaves, by their index.
@@ -68,12 +68,12 @@ impl Values {
     /// Checks every key of a tree: known, not excluded, complete, of its type, unit and range.
     pub fn read(
         sources: Sources,
-        root: &Table,
+        root: &TomlTable,
         section: &'static Section,
     ) -> Result<Self, InputError> {
         let sources = Arc::new(sources);
         let mut values = Self { sources, root: Root(section), ..Self::default() };
-        values.read_table("", &Spot { source: 0, span: 0..0 }, root, section)?;
+        values.read_table("", &SourceSpan { source: 0, span: 0..0 }, root, section)?;
         Ok(values)
     }
 
@@ -155,7 +155,7 @@ impl Values {
     }
 
     /// Tells errors where a path stands that its own reader has found.
-    pub fn mark(&mut self, path: &str, spot: &Spot) {
+    pub fn mark(&mut self, path: &str, spot: &SourceSpan) {
         Arc::make_mut(&mut self.tables).insert(path.to_owned(), (spot.clone(), 0));
     }
 
@@ -179,7 +179,7 @@ impl Values {
         expected: impl Into<String>,
         found: impl Into<String>,
     ) -> InputError {
-        let nowhere = Spot { source: 0, span: 0..0 };
+        let nowhere = SourceSpan { source: 0, span: 0..0 };
         let mut at = path;
         loop {
             let here = self.leaf(at).map(|leaf| &leaf.spot);
@@ -195,7 +195,7 @@ impl Values {
     /// An error at a place.
     pub fn error_spot(
         &self,
-        spot: &Spot,
+        spot: &SourceSpan,
         path: &str,
         expected: impl Into<String>,
         found: impl Into<String>,
@@ -217,8 +217,8 @@ impl Values {
     pub fn read_table(
         &mut self,
         path: &str,
-        spot: &Spot,
-        table: &Table,
+        spot: &SourceSpan,
+        table: &TomlTable,
         section: &'static Section,
     ) -> Result<(), InputError> {
         Arc::make_mut(&mut self.tables).insert(path.to_owned(), (spot.clone(), 0));
@@ -531,8 +531,8 @@ impl Values {
     fn check_exclusive(
         &self,
         path: &str,
-        spot: &Spot,
-        table: &Table,
+        spot: &SourceSpan,
+        table: &TomlTable,
         section: &'static Section,
     ) -> Result<(), InputError> {
         for exclusive in section.choices {
@@ -565,7 +565,7 @@ impl Values {
         path: &str,
         entry: &Entry,
         key: &Key,
-        table: &Table,
+        table: &TomlTable,
         section: &'static Section,
     ) -> Result<(), InputError> {
         let Some(other) = key.beside.filter(|other| table.get(other).is_none()) else {

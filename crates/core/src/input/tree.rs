@@ -10,7 +10,7 @@ use crate::numerics::sort;
 
 /// A place in one of the texts.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Spot {
+pub(super) struct SourceSpan {
     /// Index of the text in [`Sources`].
     pub source: usize,
     /// Its bytes.
@@ -23,21 +23,21 @@ pub(super) struct Sources(Vec<(String, String)>);
 
 /// A table's keys in the order of the text.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Table(pub Vec<Entry>);
+pub(super) struct TomlTable(pub Vec<Entry>);
 
 /// A key and its value.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Entry {
     pub name: String,
     /// Where the key stands.
-    pub key: Spot,
+    pub key: SourceSpan,
     pub node: Node,
 }
 
 /// A value and where it stands; of a table with a header, the header.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Node {
-    pub spot: Spot,
+    pub spot: SourceSpan,
     pub value: Value,
 }
 
@@ -51,7 +51,7 @@ pub(super) enum Value {
     /// A truth value or a date: no key takes one.
     Other(String),
     List(Vec<Node>),
-    Table(Table),
+    Table(TomlTable),
 }
 
 impl Sources {
@@ -64,7 +64,7 @@ impl Sources {
     /// The error at a place.
     pub fn error(
         &self,
-        spot: &Spot,
+        spot: &SourceSpan,
         path: &str,
         expected: impl Into<String>,
         found: impl Into<String>,
@@ -91,7 +91,7 @@ pub(super) fn line_and_column(text: &str, byte: usize) -> (usize, usize) {
     (line, column)
 }
 
-impl Table {
+impl TomlTable {
     pub fn get(&self, name: &str) -> Option<&Entry> {
         self.0.iter().find(|entry| entry.name == name)
     }
@@ -100,7 +100,7 @@ impl Table {
         let mut entries: Vec<Entry> = table
             .into_iter()
             .map(|(key, value)| Entry {
-                key: Spot { source, span: key.span() },
+                key: SourceSpan { source, span: key.span() },
                 name: key.into_inner().into_owned(),
                 node: Node::from_toml(value, source),
             })
@@ -112,7 +112,7 @@ impl Table {
 
 impl Node {
     fn from_toml(value: Spanned<DeValue<'_>>, source: usize) -> Self {
-        let spot = Spot { source, span: value.span() };
+        let spot = SourceSpan { source, span: value.span() };
         let value = match value.into_inner() {
             DeValue::String(text) => Value::Text(text.into_owned()),
             DeValue::Integer(integer) => {
@@ -135,7 +135,7 @@ impl Node {
                 let nodes = list.into_iter().map(|value| Self::from_toml(value, source));
                 Value::List(nodes.collect())
             }
-            DeValue::Table(table) => Value::Table(Table::from_toml(table, source)),
+            DeValue::Table(table) => Value::Table(TomlTable::from_toml(table, source)),
         };
         Self { spot, value }
     }
@@ -164,10 +164,10 @@ impl Node {
 }
 
 /// Reads a text as TOML.
-pub(super) fn parse_document(sources: &Sources, source: usize) -> Result<Table, InputError> {
+pub(super) fn parse_document(sources: &Sources, source: usize) -> Result<TomlTable, InputError> {
     let text = sources.0.get(source).map_or("", |(_, text)| text.as_str());
     match DeTable::parse(text) {
-        Ok(table) => Ok(Table::from_toml(table.into_inner(), source)),
+        Ok(table) => Ok(TomlTable::from_toml(table.into_inner(), source)),
         Err(error) => Err(syntax_error(sources, source, text, &error)),
     }
 }
@@ -181,7 +181,7 @@ pub(super) fn parse_value(text: &str, source: usize, start: usize) -> Node {
             node
         }
         Err(_) => {
-            let spot = Spot { source, span: start..start + text.len() };
+            let spot = SourceSpan { source, span: start..start + text.len() };
             Node { spot, value: Value::Text(text.to_owned()) }
         }
     }
@@ -190,7 +190,7 @@ pub(super) fn parse_value(text: &str, source: usize, start: usize) -> Node {
 impl Node {
     /// Moves all places by `offset` bytes.
     fn shift(&mut self, offset: usize) {
-        let shifted = |spot: &mut Spot| {
+        let shifted = |spot: &mut SourceSpan| {
             spot.span = spot.span.start + offset..spot.span.end + offset;
         };
         shifted(&mut self.spot);
@@ -217,7 +217,7 @@ fn syntax_error(
     let span = error.span().unwrap_or(text.len()..text.len());
     if let Some((spot, found)) = decimal_comma(text, span.start) {
         let expected = format!("a decimal point, {}", found.replace(',', "."));
-        return sources.error(&Spot { source, span: spot }, "", expected, found);
+        return sources.error(&SourceSpan { source, span: spot }, "", expected, found);
     }
     let (wrong, expected) = match error.message() {
         message if message.starts_with("string values must be quoted") => {
@@ -233,7 +233,7 @@ fn syntax_error(
         (wrong, "") => wrong.to_owned(),
         (wrong, word) => format!("{wrong}: \"{}\"", cut(word)),
     };
-    sources.error(&Spot { source, span }, "", expected, found)
+    sources.error(&SourceSpan { source, span }, "", expected, found)
 }
 
 /// A number whose decimals follow a comma, which stands at a byte of the text or begins there.

@@ -1,7 +1,7 @@
 //! A prediction driven by the measured table acceleration, against what was measured.
 
 use super::anderson::{Anderson, anderson};
-use super::measured::{Measured, Series};
+use super::measured::{Measured, MeasuredSeries};
 use super::metrics::{self, Russell};
 use crate::error::{MotionError, RecordError, SolveError};
 use crate::input::Channel;
@@ -338,7 +338,7 @@ pub fn pairs(measured: &Measured, start_s: f64, history: &History) -> Vec<Pair> 
     measured.series.iter().filter_map(|series| pair(series, start_s, history)).collect()
 }
 
-fn pair(series: &Series, start_s: f64, history: &History) -> Option<Pair> {
+fn pair(series: &MeasuredSeries, start_s: f64, history: &History) -> Option<Pair> {
     let knots = Knots::of(series.channel, history)?;
     let end_s = history.time_s.last().copied()?;
     // Times of the file are differences of rounded numbers.

@@ -9,7 +9,7 @@ use super::cyclic::{
 use super::estimate::Estimate;
 use super::fitted;
 use super::free_vibration::{FreeVibration, free_vibration as fit_free_vibration};
-use super::measured::{Measured, Series};
+use super::measured::{Measured, MeasuredSeries};
 use super::shaking_table::{
     Builder, Parameter, TableError, TableFit, TableTest, shaking_table as fit_table,
 };
@@ -295,7 +295,7 @@ pub struct CyclicRequest<'a> {
 ///
 /// # Errors
 /// [`RecordError`] where the file lacks either.
-pub fn cyclic_histories(measured: &Measured) -> Result<[&Series; 2], RecordError> {
+pub fn cyclic_histories(measured: &Measured) -> Result<[&MeasuredSeries; 2], RecordError> {
     let displacement = match measured.get(Channel::SlidingDisplacement) {
         Some(sliding) if measured.get(Channel::Displacement).is_none() => sliding,
         _ => measured.require(Channel::Displacement)?,
@@ -415,7 +415,10 @@ pub fn free_vibration(
 }
 
 /// The quantity asked for, else the only one.
-fn chosen<'a>(measured: &'a Measured, name: Option<&str>) -> Result<&'a Series, ChoiceError> {
+fn chosen<'a>(
+    measured: &'a Measured,
+    name: Option<&str>,
+) -> Result<&'a MeasuredSeries, ChoiceError> {
     let fault = |found: &str| {
         let names: Vec<String> = measured.series.iter().map(|s| s.channel.name()).collect();
         let expected = match names.as_slice() {

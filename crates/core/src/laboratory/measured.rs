@@ -9,7 +9,7 @@ use crate::units::{Dimension, Unit};
 
 /// One measured quantity.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Series {
+pub struct MeasuredSeries {
     /// What it is.
     pub channel: Channel,
     /// Where it comes from, in words: `column "A1" in g, × −1`.
@@ -30,7 +30,7 @@ pub struct Measured {
     /// The constant time step in s, or `None` where the rows are unevenly spaced.
     pub dt_s: Option<f64>,
     /// The quantities, in the order of the file's columns.
-    pub series: Vec<Series>,
+    pub series: Vec<MeasuredSeries>,
     /// What the reader of a result must know.
     pub warnings: Vec<Notice>,
     /// Names of the file's columns, for messages.
@@ -72,7 +72,7 @@ impl Measured {
     /// # Errors
     /// As [`Measured::read`], but for what makes no table.
     pub fn of_columns(columns: Columns, mapping: &Mapping) -> Result<Self, MeasuredError> {
-        let mut found: Vec<(usize, Series)> = Vec::new();
+        let mut found: Vec<(usize, MeasuredSeries)> = Vec::new();
         let mut taken = vec![false; columns.columns.len()];
         let mut time = None;
         for entry in &mapping.columns {
@@ -112,7 +112,7 @@ impl Measured {
             let origin = format!("column {:?}, in {}", column.name, unit.name());
             let zero_known = false;
             let times_s = Vec::new();
-            found.push((index, Series { channel, origin, times_s, values, zero_known }));
+            found.push((index, MeasuredSeries { channel, origin, times_s, values, zero_known }));
         }
         let names = columns.names();
         let (times_s, dt_s, warnings) = clock(&columns, mapping, time)?;
@@ -122,7 +122,7 @@ impl Measured {
             series.times_s = times_s.iter().map(|t| t + offset_s).collect();
             series
         });
-        let mut series: Vec<Series> = series.collect();
+        let mut series: Vec<MeasuredSeries> = series.collect();
         match mapping.zero {
             Zero::Unknown => {}
             Zero::AsMeasured => series.iter_mut().for_each(|series| series.zero_known = true),
@@ -154,7 +154,7 @@ impl Measured {
     /// The first samples of every quantity.
     #[must_use]
     pub fn first(&self, samples: usize) -> Self {
-        let first = |series: &Series| Series {
+        let first = |series: &MeasuredSeries| MeasuredSeries {
             times_s: series.times_s.iter().take(samples).copied().collect(),
             values: series.values.iter().take(samples).copied().collect(),
             ..series.clone()
@@ -164,7 +164,7 @@ impl Measured {
 
     /// The series of a quantity.
     #[must_use]
-    pub fn get(&self, channel: Channel) -> Option<&Series> {
+    pub fn get(&self, channel: Channel) -> Option<&MeasuredSeries> {
         self.series.iter().find(|series| series.channel == channel)
     }
 
@@ -172,7 +172,7 @@ impl Measured {
     ///
     /// # Errors
     /// [`RecordError`] that names the columns of the file and says how one is chosen.
-    pub fn require(&self, channel: Channel) -> Result<&Series, RecordError> {
+    pub fn require(&self, channel: Channel) -> Result<&MeasuredSeries, RecordError> {
         self.get(channel).ok_or_else(|| {
             let (name, unit) = (channel.name(), channel.dimension().si_unit());
             RecordError {
@@ -231,7 +231,7 @@ fn mapped(
     entry: &MappedColumn,
     column: usize,
     minus: Option<usize>,
-) -> Result<Series, InputError> {
+) -> Result<MeasuredSeries, InputError> {
     let dimension = entry.channel.dimension();
     let in_si = |index: usize| -> Result<(Vec<f64>, &'static Unit), InputError> {
         let column = &columns.columns[index];
@@ -289,7 +289,7 @@ fn mapped(
         origin.push_str(&format!(", {:+} s", entry.offset_s));
     }
     let zero_known = entry.zero.is_some();
-    Ok(Series { channel: entry.channel, origin, times_s: Vec::new(), values, zero_known })
+    Ok(MeasuredSeries { channel: entry.channel, origin, times_s: Vec::new(), values, zero_known })
 }
 
 /// What a column's name says of its unit.

@@ -21,7 +21,7 @@ pub use parameter::{Builder, Parameter};
 use super::compare::{self, CompareError, Comparison};
 use super::estimate::{Estimate, correlation_length};
 use super::fit::{Interval, Minimum, Problem, Profile, global, profile, refine};
-use super::measured::{Measured, Series};
+use super::measured::{Measured, MeasuredSeries};
 use super::metrics::rms;
 use crate::error::{RecordError, Stopped};
 use crate::input::Channel;
@@ -232,7 +232,7 @@ fn fit(test: &TableTest, engine: &Engine<'_>) -> Result<TableFit, TableError> {
 }
 
 /// Whether the zero of a sensor is to be fitted.
-fn has_free_zero(series: &Series) -> bool {
+fn has_free_zero(series: &MeasuredSeries) -> bool {
     let by_kind = matches!(
         series.channel,
         Channel::SlidingDisplacement | Channel::StoreyDisplacement(_) | Channel::FrictionForce

@@ -22,7 +22,7 @@ pub enum Takes {
 /// A field of a request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Field {
-    /// Its name, of which every door makes its own word: see [`Door::calls`].
+    /// Its name, of which every door makes its own word: see [`FrontEnd::calls`].
     pub name: &'static str,
     /// What stands for its text in a help: `VALUES`.
     pub value: &'static str,
@@ -81,7 +81,7 @@ impl Field {
 
 /// Where a request comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Door {
+pub enum FrontEnd {
     /// Options of the command.
     Command,
     /// Keywords in Python.
@@ -90,7 +90,7 @@ pub enum Door {
     Page,
 }
 
-impl Door {
+impl FrontEnd {
     /// What is wrong, in the words of the door: the field, and every other that is named in backticks, as it is
     /// called there.
     #[must_use]
@@ -297,17 +297,17 @@ mod tests {
             found: "both".to_owned(),
             nearest: None,
         };
-        let says = |door: Door| door.says(&error).to_string();
+        let says = |door: FrontEnd| door.says(&error).to_string();
         assert_eq!(
-            says(Door::Command),
+            says(FrontEnd::Command),
             "--scale-to slider.gap: expected --scale-to or --code-spectrum, found both"
         );
         assert_eq!(
-            says(Door::Python),
+            says(FrontEnd::Python),
             "scale_to slider.gap: expected scale_to or code_spectrum, found both"
         );
         assert_eq!(
-            says(Door::Page),
+            says(FrontEnd::Page),
             "Scale to slider.gap: expected Scale to or Code spectrum, found both"
         );
     }

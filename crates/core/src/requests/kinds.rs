@@ -1,6 +1,6 @@
 //! The analyses and their fields: a table from which every door makes its options, keywords or form.
 
-use super::fields::{Door, Field, Takes};
+use super::fields::{Field, FrontEnd, Takes};
 
 const PATH_VALUES: &str = "PATH=VALUES";
 
@@ -488,35 +488,35 @@ impl Kind {
 }
 
 /// What a door does not offer, and why: a field of an analysis, or all of it.
-pub const NOT_OFFERED: &[(Door, Kind, Option<&str>, &str)] = &[
+pub const NOT_OFFERED: &[(FrontEnd, Kind, Option<&str>, &str)] = &[
     (
-        Door::Command,
+        FrontEnd::Command,
         Kind::Sweep,
         None,
         "spectrum over the model's own motion, or a study, tells it",
     ),
-    (Door::Python, Kind::Run, Some("method"), "analysis.method is a key of the model"),
-    (Door::Python, Kind::Run, Some("scale"), "Motion.scaled scales a motion"),
-    (Door::Python, Kind::Run, Some("scale-to"), "Motion.scaled scales a motion"),
-    (Door::Python, Kind::Run, Some("property-factors"), "slider.bounds is a key of the model"),
-    (Door::Python, Kind::Sweep, None, "study tells it"),
-    (Door::Page, Kind::Run, None, "the page shows the run of its own model and motion"),
-    (Door::Page, Kind::Suite, Some("code-spectrum"), "the page has no pairs of records"),
-    (Door::Page, Kind::Suite, Some("periods"), "the page has no pairs of records"),
-    (Door::Page, Kind::Suite, Some("pairs"), "the page has no pairs of records"),
-    (Door::Page, Kind::Spectrum, Some("pairs"), "the page has no pairs of records"),
-    (Door::Page, Kind::Sensitivity, Some("pairs"), "the page has no pairs of records"),
-    (Door::Page, Kind::Ida, Some("pairs"), "the page has no pairs of records"),
-    (Door::Page, Kind::Design, Some("pairs"), "the page has no pairs of records"),
-    (Door::Page, Kind::Compare, None, "the page shows no measurements"),
-    (Door::Page, Kind::Cyclic, None, "the page shows no measurements"),
-    (Door::Page, Kind::FreeVibration, None, "the page shows no measurements"),
-    (Door::Page, Kind::ShakingTable, None, "the page shows no measurements"),
+    (FrontEnd::Python, Kind::Run, Some("method"), "analysis.method is a key of the model"),
+    (FrontEnd::Python, Kind::Run, Some("scale"), "Motion.scaled scales a motion"),
+    (FrontEnd::Python, Kind::Run, Some("scale-to"), "Motion.scaled scales a motion"),
+    (FrontEnd::Python, Kind::Run, Some("property-factors"), "slider.bounds is a key of the model"),
+    (FrontEnd::Python, Kind::Sweep, None, "study tells it"),
+    (FrontEnd::Page, Kind::Run, None, "the page shows the run of its own model and motion"),
+    (FrontEnd::Page, Kind::Suite, Some("code-spectrum"), "the page has no pairs of records"),
+    (FrontEnd::Page, Kind::Suite, Some("periods"), "the page has no pairs of records"),
+    (FrontEnd::Page, Kind::Suite, Some("pairs"), "the page has no pairs of records"),
+    (FrontEnd::Page, Kind::Spectrum, Some("pairs"), "the page has no pairs of records"),
+    (FrontEnd::Page, Kind::Sensitivity, Some("pairs"), "the page has no pairs of records"),
+    (FrontEnd::Page, Kind::Ida, Some("pairs"), "the page has no pairs of records"),
+    (FrontEnd::Page, Kind::Design, Some("pairs"), "the page has no pairs of records"),
+    (FrontEnd::Page, Kind::Compare, None, "the page shows no measurements"),
+    (FrontEnd::Page, Kind::Cyclic, None, "the page shows no measurements"),
+    (FrontEnd::Page, Kind::FreeVibration, None, "the page shows no measurements"),
+    (FrontEnd::Page, Kind::ShakingTable, None, "the page shows no measurements"),
 ];
 
 impl Kind {
     /// The fields that a door offers.
-    pub fn offered(self, door: Door) -> impl Iterator<Item = &'static Field> {
+    pub fn offered(self, door: FrontEnd) -> impl Iterator<Item = &'static Field> {
         let missing = move |field: &Field| {
             let mut of_door = NOT_OFFERED.iter().filter(|(at, of, ..)| (*at, *of) == (door, self));
             of_door.any(|(_, _, name, _)| name.is_none_or(|name| name == field.name))
@@ -545,9 +545,9 @@ pub fn table() -> String {
     text.push_str("\nstudy: its plan (slipstick schema --plan)\n\nNot offered:\n");
     for (door, kind, field, reason) in NOT_OFFERED {
         let door = match door {
-            Door::Command => "command",
-            Door::Python => "Python",
-            Door::Page => "page",
+            FrontEnd::Command => "command",
+            FrontEnd::Python => "Python",
+            FrontEnd::Page => "page",
         };
         let what = format!("{} {}", kind.name(), field.unwrap_or_default());
         text.push_str(&format!("  {door:<8} {:<21} {reason}\n", what.trim_end()));

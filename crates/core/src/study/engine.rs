@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 use crate::error::{SolveError, Stopped};
 use crate::model::Model;
-use crate::progress::GoOn;
+use crate::progress::Cancel;
 use crate::response::Response;
 use crate::solver::{Prepared, PreparedMotion, Workspace};
 
@@ -123,7 +123,7 @@ impl<'a> Engine<'a> {
     }
 
     /// One run that asks now and then whether to go on, and ends where the engine is stopped.
-    pub fn watch<R>(&self, run: impl FnOnce(GoOn<'_>) -> R) -> R {
+    pub fn watch<R>(&self, run: impl FnOnce(Cancel<'_>) -> R) -> R {
         // The first question comes at once: short runs do not bother the follower.
         let long = Cell::new(false);
         run(&|| {

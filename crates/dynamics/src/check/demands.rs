@@ -31,14 +31,20 @@ impl Totals {
         Self { interfaces, contact_s: 0.0, closest_stop: None, stop_rounding: 0.0 }
     }
 
-    /// Adds the length of an interval; `leans` where the block is against a rigid stop.
-    pub(super) fn add(&mut self, modes: &[Mode], contact: Contact, length_s: f64, leans: bool) {
+    /// Adds the length of an interval; `bears_on_stop` where the block is against a rigid stop.
+    pub(super) fn add(
+        &mut self,
+        modes: &[Mode],
+        contact: Contact,
+        length_s: f64,
+        bears_on_stop: bool,
+    ) {
         for (sums, mode) in self.interfaces.iter_mut().zip(modes) {
             if *mode != Mode::Stick {
                 sums.sliding_s += length_s;
             }
         }
-        if matches!(contact, Contact::Pressed(_)) || (leans && modes[0] == Mode::Stick) {
+        if matches!(contact, Contact::Pressed(_)) || (bears_on_stop && modes[0] == Mode::Stick) {
             self.contact_s += length_s;
         }
     }

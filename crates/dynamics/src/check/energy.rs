@@ -4,7 +4,7 @@ use super::EnergyHistory;
 
 /// Energies at knots, and what the intervals that begin there spend, in J.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Books {
+pub(super) struct EnergyBalance {
     /// Initial energy `E₀`, of which a stop has taken a part.
     pub(super) initial: [f64; 2],
     pub(super) kinetic: Vec<f64>,
@@ -15,10 +15,10 @@ pub(super) struct Books {
     pub(super) damping: Vec<f64>,
     pub(super) friction: Vec<f64>,
     /// What the rounding of the loads makes of them; empty where `N` is constant.
-    pub(super) blur: Vec<f64>,
+    pub(super) load_rounding: Vec<f64>,
 }
 
-impl Books {
+impl EnergyBalance {
     /// None spent yet, from these energies at knots on, with what a stop has taken.
     pub(super) fn new(
         [kinetic, strain]: [Vec<f64>; 2],
@@ -32,7 +32,7 @@ impl Books {
             size: if follows { zeros() } else { Vec::new() },
             damping: zeros(),
             friction: zeros(),
-            blur: if varies { zeros() } else { Vec::new() },
+            load_rounding: if varies { zeros() } else { Vec::new() },
             kinetic,
             strain,
         }
@@ -45,7 +45,7 @@ impl Books {
     /// what is exchanged, not with its sums.
     pub(super) fn error(&self, rounding: f64, unsure: impl Fn(usize) -> f64) -> f64 {
         let [initial, stop] = self.initial;
-        let (mut imbalance, mut blur, mut worst) = (0.0_f64, 0.0, 0.0_f64);
+        let (mut imbalance, mut load_rounding, mut worst) = (0.0_f64, 0.0, 0.0_f64);
         let (mut size, mut damping, mut friction) = (initial, stop, 0.0);
         let mut scale = rounding;
         for k in 0..self.kinetic.len() {
@@ -58,9 +58,10 @@ impl Books {
                 damping += self.damping[last];
                 friction += self.friction[last];
                 let spent = worked + self.friction[last].abs() + self.damping[last].abs();
-                blur += self.blur.get(last).unwrap_or(&0.0) + unsure(last) * spent;
+                load_rounding +=
+                    self.load_rounding.get(last).unwrap_or(&0.0) + unsure(last) * spent;
             }
-            worst = worst.max(imbalance.abs() - blur);
+            worst = worst.max(imbalance.abs() - load_rounding);
             let held = self.kinetic[k] + self.strain[k];
             scale = scale.max(size + held + damping.abs() + f64::abs(friction));
         }

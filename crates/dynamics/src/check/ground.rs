@@ -62,7 +62,7 @@ pub(super) struct Ground<'a> {
     /// Index of the sample at or before the last piece asked for.
     cursor: usize,
     /// Rounding of a time, and the largest `N` up to the end.
-    blur: (f64, f64),
+    load_rounding: (f64, f64),
 }
 
 impl<'a> Ground<'a> {
@@ -89,15 +89,15 @@ impl<'a> Ground<'a> {
                 .pressure_exponent(motion.vertical_m_per_s2().is_some())
                 .is_some(),
             cursor: 0,
-            blur: (8.0 * f64::EPSILON * end_s, 0.0),
+            load_rounding: (8.0 * f64::EPSILON * end_s, 0.0),
         };
-        ground.blur.1 = ground.largest(end_s).0;
+        ground.load_rounding.1 = ground.largest(end_s).0;
         ground
     }
 
     /// Rounding of a time, and the largest `N`.
-    pub(super) fn blur(&self) -> (f64, f64) {
-        self.blur
+    pub(super) fn load_rounding(&self) -> (f64, f64) {
+        self.load_rounding
     }
 
     /// Moves to the last sample at or before a time.

@@ -3,11 +3,11 @@
 
 use super::collocation::{POINTS, Rule};
 use super::demands::{Comparison, Rounding, Totals};
-use super::energy::Books;
+use super::energy::EnergyBalance;
 use super::events::Events;
 use super::ground::{Ground, Load};
 use super::law::{Law, StickDemand};
-use super::near::{Dips, dip};
+use super::near::{LocalMinima, dip};
 use super::outputs::Outputs;
 use super::structure::{excess, larger};
 use super::{Certificate, ClosestCall, DecisionKind};
@@ -87,22 +87,22 @@ pub(super) struct Judge<'a, A> {
     /// Largest `N` and `|Ü|`.
     pub(super) largest: (f64, f64),
     /// Velocities below this are zero to within rounding.
-    pub(super) still: f64,
+    pub(super) zero_velocity: f64,
     /// Rounding of a time.
     pub(super) instant_s: f64,
     /// What it makes of a force at an event at most.
     pub(super) unsure_n: f64,
     /// Velocity that the largest acceleration gives in that time.
-    pub(super) jolt: f64,
+    pub(super) velocity_rounding: f64,
     /// What the rounding of `N` makes of places and velocities in an interval.
-    pub(super) drift: [f64; 2],
+    pub(super) state_rounding: [f64; 2],
     pub(super) figures: Figures,
-    pub(super) books: Books,
+    pub(super) books: EnergyBalance,
     pub(super) runs: Vec<Run>,
     /// Modes before the first knot: a block with a velocity slides on.
     pub(super) at_start: Vec<Mode>,
     /// Near decisions of the phases under way, by interface.
-    pub(super) dips: Vec<Dips>,
+    pub(super) dips: Vec<LocalMinima>,
     pub(super) closest: Option<ClosestCall>,
     pub(super) totals: Totals,
     pub(super) events: Events,
@@ -128,11 +128,11 @@ pub(super) trait Directions {
     /// Judges the intervals of a run in order of time.
     fn go_through(&mut self, run: Run) -> Result<(), Stopped>;
     /// Judges a knot at which no interval ends or begins.
-    fn alone(&mut self, k: usize);
+    fn isolated_knot(&mut self, k: usize);
     /// Judges what happens between a knot and the one before at the same time; whether a rigid stop is struck.
-    fn abreast(&mut self, k: usize) -> bool;
+    fn at_same_time(&mut self, k: usize) -> bool;
     /// The closest call of a slip of an interface that has ended.
-    fn slipped(&mut self, i: usize, direction: Direction) -> Option<ClosestCall>;
+    fn closest_call_of_slip(&mut self, i: usize, direction: Direction) -> Option<ClosestCall>;
     /// Judges the knot at which some mode has changed.
     fn changed(&mut self, _: usize) {}
     /// A phase of an interface begins.
@@ -166,16 +166,16 @@ where
             outputs,
             largest: ground.largest(end_s),
             ground,
-            still: 0.0,
+            zero_velocity: 0.0,
             instant_s: 8.0 * f64::EPSILON * end_s,
             unsure_n: 0.0,
-            jolt: 0.0,
-            drift: [0.0; 2],
+            velocity_rounding: 0.0,
+            state_rounding: [0.0; 2],
             figures: Figures::default(),
-            books: Books::default(),
+            books: EnergyBalance::default(),
             runs: find_runs(history),
             at_start,
-            dips: vec![Dips::new(0.0); history.interfaces],
+            dips: vec![LocalMinima::new(0.0); history.interfaces],
             closest: None,
             totals: Totals::new(history.interfaces),
             events: Events::default(),
@@ -207,13 +207,14 @@ where
     /// Takes what defects are measured by.
     pub(super) fn take_sizes(&mut self, sizes: &Sizes) {
         // What the rounding of a time makes of the largest acceleration is no motion.
-        self.jolt = self.instant_s * sizes.acceleration;
+        self.velocity_rounding = self.instant_s * sizes.acceleration;
         // A frame held at rest by its weight on a slope moves by rounding alone: its velocities
         // are measured by the static displacement, not by themselves.
         let rest = 1e-4 * sizes.frequency * sizes.storey_m;
-        self.figures.displacement[1] = sizes.displacement_m.max(self.instant_s * self.jolt);
-        self.figures.velocity[1] = sizes.velocity.max(rest).max(self.jolt);
-        self.still = STILL * sizes.sliding + 64.0 * f64::EPSILON * sizes.velocity;
+        self.figures.displacement[1] =
+            sizes.displacement_m.max(self.instant_s * self.velocity_rounding);
+        self.figures.velocity[1] = sizes.velocity.max(rest).max(self.velocity_rounding);
+        self.zero_velocity = STILL * sizes.sliding + 64.0 * f64::EPSILON * sizes.velocity;
     }
 
     /// Modes before a knot.
@@ -242,11 +243,12 @@ where
 
     /// What the rounding of `N` makes of a place and a velocity in an interval of a length, from the acceleration that it
     /// may be.
-    pub(super) fn take_drift(&mut self, acceleration: f64, length_s: f64) -> [f64; 2] {
-        let drift = acceleration * length_s;
-        let drift_m = 0.5 * length_s * drift;
-        self.drift = [self.drift[0].max(drift_m), self.drift[1].max(drift)];
-        [drift_m, drift]
+    pub(super) fn take_state_rounding(&mut self, acceleration: f64, length_s: f64) -> [f64; 2] {
+        let state_rounding = acceleration * length_s;
+        let drift_m = 0.5 * length_s * state_rounding;
+        self.state_rounding =
+            [self.state_rounding[0].max(drift_m), self.state_rounding[1].max(state_rounding)];
+        [drift_m, state_rounding]
     }
 
     /// Compares the end of a path with the knot stored there, degree by degree: displacement and velocity, less what the
@@ -257,9 +259,12 @@ where
         (k, degree): (usize, usize),
         end: [f64; 2],
         [fastest, rate]: [f64; 2],
-        drift: [f64; 2],
+        state_rounding: [f64; 2],
     ) {
-        let rounding = [self.instant_s * fastest + drift[0], self.instant_s * rate + drift[1]];
+        let rounding = [
+            self.instant_s * fastest + state_rounding[0],
+            self.instant_s * rate + state_rounding[1],
+        ];
         self.compare(k, degree, end, rounding);
         let f = &mut self.figures;
         f.displacement[1] = larger(f.displacement[1], end[0]);
@@ -285,12 +290,13 @@ where
                 self.join(from, arrived);
             }
             if from < to {
-                let leans = self.law.leans(h.sliding_displacement_m[from]) != [false; 2];
+                let bears_on_stop =
+                    self.law.bears_on_stop(h.sliding_displacement_m[from]) != [false; 2];
                 let length_s = h.time_s[to] - h.time_s[from];
-                self.totals.add(h.modes(from), self.contact(from), length_s, leans);
+                self.totals.add(h.modes(from), self.contact(from), length_s, bears_on_stop);
                 self.go_through(run)?;
             } else if arrived != Some(from) {
-                self.alone(from);
+                self.isolated_knot(from);
             }
             arrived = Some(to);
         }
@@ -309,7 +315,7 @@ where
         let h = self.h;
         let (before, after) = (h.modes(k - 1), h.modes(k));
         let changed = |i: &usize| before[*i] != after[*i];
-        let struck = arrived < k && self.abreast(k);
+        let struck = arrived < k && self.at_same_time(k);
         for i in (0..after.len()).filter(changed) {
             if !struck {
                 self.figures.velocity[0] = larger(self.figures.velocity[0], self.speed_at(k, i));
@@ -329,8 +335,8 @@ where
 
     /// Begins a phase of an interface at a knot.
     fn begin(&mut self, i: usize, k: usize) {
-        let slack = if self.h.modes(k)[i] == Mode::Stick { 1e-12 } else { self.still };
-        self.dips[i] = Dips::new(slack);
+        let slack = if self.h.modes(k)[i] == Mode::Stick { 1e-12 } else { self.zero_velocity };
+        self.dips[i] = LocalMinima::new(slack);
         self.begins(i);
     }
 
@@ -338,7 +344,7 @@ where
     fn close(&mut self, i: usize, mode: Mode) {
         let call = match mode {
             Mode::Stick => self.dips[i].least(DecisionKind::Stick, i),
-            Mode::Slip(direction) => self.slipped(i, direction),
+            Mode::Slip(direction) => self.closest_call_of_slip(i, direction),
         };
         if let Some(call) = call {
             self.nearest(call);
@@ -452,7 +458,7 @@ where
 
     /// What the rounding of `N` makes of what the slider's friction follows, in N.
     pub(super) fn pressed_rounding(&self, load: &Load) -> f64 {
-        let rounding = load.normal_rounding(self.ground.blur());
+        let rounding = load.normal_rounding(self.ground.load_rounding());
         self.law.pressed_rounding(load.normal, rounding)
     }
 
@@ -481,13 +487,13 @@ where
         let blur_n = self.law.rounding(&self.ground, self.instant_s, normal);
         let rounding = Rounding {
             instant_s: self.instant_s,
-            displacement_m: near(f.displacement[1]) + self.drift[0],
-            velocity_m_per_s: near(f.velocity[1]) + self.jolt + self.drift[1],
+            displacement_m: near(f.displacement[1]) + self.state_rounding[0],
+            velocity_m_per_s: near(f.velocity[1]) + self.velocity_rounding + self.state_rounding[1],
             force_n: near(larger(f.force[1], self.carried_n())) + self.unsure_n + blur_n,
         };
         let mut demands = Comparison::default();
         self.compare_demands(&mut demands, &rounding);
-        let jolt_j = self.model.total_mass_kg() * self.jolt * self.jolt;
+        let jolt_j = self.model.total_mass_kg() * self.velocity_rounding * self.velocity_rounding;
         Certificate {
             equilibrium_residual: f.equilibrium(table),
             friction_excess: relative([f.excess, self.law.scale(normal, self.model.weight_n())]),

@@ -20,8 +20,8 @@ pub(super) const UNBOUNDED: f64 = 1e200;
 pub(super) const BOUNDLESS: [f64; 2] = [-UNBOUNDED, UNBOUNDED];
 
 /// Some numbers where a stop is leaned against, others where it is not.
-pub(super) fn either(leans: [bool; 2], those: [f64; 2], others: [f64; 2]) -> [f64; 2] {
-    [0, 1].map(|i| if leans[i] { those[i] } else { others[i] })
+pub(super) fn either(bears_on_stop: [bool; 2], those: [f64; 2], others: [f64; 2]) -> [f64; 2] {
+    [0, 1].map(|i| if bears_on_stop[i] { those[i] } else { others[i] })
 }
 
 /// What friction is asked for and between which forces it holds, in N.
@@ -287,7 +287,7 @@ impl Law {
     }
 
     /// Against which stops a block at `s` rests: within the rounding of `s`.
-    pub(super) fn leans(&self, s: f64) -> [bool; 2] {
+    pub(super) fn bears_on_stop(&self, s: f64) -> [bool; 2] {
         let off = |side: Direction, wall: f64| side.sign() * (wall - s);
         Direction::BOTH.map(|side| {
             self.wall(side).is_some_and(|wall| off(side, wall) <= 8.0 * f64::EPSILON * wall.abs())

@@ -12,7 +12,7 @@ use self::interval::LinePath;
 use self::knots::lists_of;
 use self::step::LineStepper;
 use super::demands::{self, Comparison, Recomputed, Rounding};
-use super::energy::Books;
+use super::energy::EnergyBalance;
 use super::judge::{Directions, Judge, JudgeInput, Run};
 use super::structure::{Phase, Structure, excess, larger};
 use super::{ClosestCall, DecisionKind};
@@ -65,7 +65,7 @@ impl<'a> Judge<'a, Line<'a>> {
     /// What the rounding of times makes of a position at this speed, and of the force of the stop.
     fn slack(&self, w: f64) -> [f64; 2] {
         let slack_m = self.instant_s * w.abs() + 8.0 * f64::EPSILON * self.figures.displacement[1];
-        [slack_m, self.structure().stop_damper() * self.jolt]
+        [slack_m, self.structure().stop_damper() * self.velocity_rounding]
     }
 
     /// Whether an interface could stick where it slides, without slowing down to it smoothly.
@@ -133,7 +133,8 @@ impl<'a> Directions for Judge<'a, Line<'a>> {
             }
         }
         let stop_j = self.law.push(self.contact(0)).strain(h.sliding_displacement_m[0]);
-        self.books = Books::new(energies, stop_j, [self.ground.has_vertical(), self.law.follows()]);
+        self.books =
+            EnergyBalance::new(energies, stop_j, [self.ground.has_vertical(), self.law.follows()]);
         Ok(true)
     }
 
@@ -159,7 +160,7 @@ impl<'a> Directions for Judge<'a, Line<'a>> {
     }
 
     /// By the load that suits it best.
-    fn alone(&mut self, k: usize) {
+    fn isolated_knot(&mut self, k: usize) {
         let h = self.h;
         let in_force = self.in_force(k, h.modes(k));
         let (place, w) = (h.sliding_displacement_m[k], h.sliding_velocity_m_per_s[k]);
@@ -185,7 +186,7 @@ impl<'a> Directions for Judge<'a, Line<'a>> {
         }
     }
 
-    fn abreast(&mut self, k: usize) -> bool {
+    fn at_same_time(&mut self, k: usize) -> bool {
         let h = self.h;
         let struck = self.strikes(k);
         if struck {
@@ -203,7 +204,7 @@ impl<'a> Directions for Judge<'a, Line<'a>> {
         struck
     }
 
-    fn slipped(&mut self, i: usize, direction: Direction) -> Option<ClosestCall> {
+    fn closest_call_of_slip(&mut self, i: usize, direction: Direction) -> Option<ClosestCall> {
         if self.drops(i, direction) { self.dips[i].least(DecisionKind::Slip, i) } else { None }
     }
 
@@ -257,7 +258,7 @@ mod tests {
     use crate::model::{Block, Damping, Frame, InitialState, Model, Slider};
     use crate::motion::GroundMotion;
     use crate::numerics::InstructionSet;
-    use crate::progress::{Pulse, UNWATCHED};
+    use crate::progress::{NEVER_CANCELLED, Pulse};
     use crate::response::{Demands, History, Method, Response};
     use crate::slider::Friction;
 
@@ -316,7 +317,15 @@ mod tests {
         (law, outputs): (&'a Law, &'a Outputs),
     ) -> JudgeInput<'a> {
         let history = response.history.as_ref().unwrap();
-        JudgeInput { model, motion, response, history, law, outputs, pulse: Pulse::new(UNWATCHED) }
+        JudgeInput {
+            model,
+            motion,
+            response,
+            history,
+            law,
+            outputs,
+            pulse: Pulse::new(NEVER_CANCELLED),
+        }
     }
 
     #[test]

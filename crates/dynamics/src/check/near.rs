@@ -14,7 +14,7 @@ pub(super) fn dip(values: &[f64; POINTS]) -> Option<usize> {
 /// A minimum counts once the quantity has fallen to it and risen from it by more than `slack`, the
 /// rounding of the values.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Dips {
+pub(super) struct LocalMinima {
     slack: f64,
     falling: bool,
     turn: f64,
@@ -24,7 +24,7 @@ pub(super) struct Dips {
     least: Option<(f64, f64)>,
 }
 
-impl Dips {
+impl LocalMinima {
     pub(super) fn new(slack: f64) -> Self {
         Self { slack, falling: false, turn: f64::NAN, turn_s: 0.0, peak: 0.0, least: None }
     }

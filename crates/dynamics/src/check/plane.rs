@@ -22,7 +22,7 @@ use super::{Certificate, MAX_RADIANS, unjudged, well_formed};
 use crate::error::Stopped;
 use crate::model::Model;
 use crate::motion::GroundMotion;
-use crate::progress::{GoOn, Pulse};
+use crate::progress::{Cancel, Pulse};
 use crate::response::{History, HistoryAlongY, Response};
 use crate::slider::{Direction, RateLaw};
 use frame::{Pair, PlaneFrame, cross, norm, unit};
@@ -33,7 +33,7 @@ pub(super) fn check(
     model: &Model,
     (motion, table_y): (&GroundMotion, &[f64]),
     response: &Response,
-    go_on: GoOn<'_>,
+    go_on: Cancel<'_>,
 ) -> Result<Certificate, Stopped> {
     let unjudged = || Ok(unjudged(1e-10));
     let (Some(h), Some(plane)) = (response.history.as_ref(), response.in_plane.as_deref()) else {

@@ -15,7 +15,7 @@ use fearless_simd::{f64x4, f64x8};
 
 use super::lanes::{Eight, Four, add4, combine4, combine8, eight, four};
 use super::polynomial::DEGREE;
-use super::series::{Load, Series, advance};
+use super::series::{Load, ModalSeries, advance};
 use super::system::System;
 
 /// Samples in a batch.
@@ -101,7 +101,7 @@ impl UnitResponses {
     pub fn new<S: Simd>(simd: S, system: &System, slip: bool, dt_s: f64) -> Self {
         let components = 2 + 2 * system.modes();
         let stride = components.div_ceil(4) * 4;
-        let mut series = Series::new(system, DEGREE);
+        let mut series = ModalSeries::new(system, DEGREE);
         let none = Load::default();
         let mut by_1 = vec![0.0; stride * stride];
         for (j, column) in by_1.chunks_exact_mut(stride).take(components).enumerate() {

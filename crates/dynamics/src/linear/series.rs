@@ -74,7 +74,7 @@ impl Load {
 /// Order after order, each as many numbers as a padded state has. With `rate × length ≤ MAX_RATE_STEP`
 /// the first term left out is below 6.4e-17 of the largest.
 #[derive(Clone, Debug, Default)]
-pub struct Series {
+pub struct ModalSeries {
     stride: usize,
     /// Orders of a whole series.
     orders: usize,
@@ -101,7 +101,7 @@ const RECIPROCAL: [f64; DEGREE] = {
     table
 };
 
-impl Series {
+impl ModalSeries {
     /// Room for series of so many orders, a multiple of four.
     #[must_use]
     pub fn new(system: &System, orders: usize) -> Self {
@@ -450,7 +450,7 @@ pub fn advance<S: Simd>(
     slip: bool,
     length_s: f64,
     load: &Load,
-    series: &mut Series,
+    series: &mut ModalSeries,
     x: &mut [f64],
 ) {
     let rate = if slip { system.slip_rate_rad_per_s } else { system.stick_rate_rad_per_s };

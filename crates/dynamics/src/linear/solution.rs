@@ -4,7 +4,7 @@ use fearless_simd::prelude::*;
 
 use super::lanes::{Four, Many, combine4};
 use super::polynomial::{Polynomial, ZERO};
-use super::series::{Load, Series};
+use super::series::{Load, ModalSeries};
 use super::system::System;
 
 /// Most storeys for which series go by a table, in stick and in slip: beyond, its sums are longer than
@@ -79,7 +79,7 @@ impl IntervalTables {
     #[inline(always)]
     fn tabulate<S: Simd>(&mut self, simd: S, system: &System) {
         let (slip, orders, stride) = (self.slip, self.orders, self.row.len());
-        let mut series = Series::new(system, orders);
+        let mut series = ModalSeries::new(system, orders);
         let (count, fours) = (if slip { 4 + stride } else { stride }, stride / 4);
         let table = |rows: usize| vec![Four::ZERO; rows * count];
         let short = SHORT.min(orders);
@@ -138,7 +138,7 @@ impl IntervalTables {
         &self,
         simd: S,
         system: &System,
-        series: &Series,
+        series: &ModalSeries,
         load: &Load,
     ) -> Polynomial {
         let mut c = series.row(simd, Many(system.modes()), &self.row);
@@ -167,7 +167,7 @@ impl IntervalTables {
         simd: S,
         system: &System,
         (x, load): (&[f64], &Load),
-        series: &mut Series,
+        series: &mut ModalSeries,
     ) -> Polynomial {
         let Some(parts) = &self.parts else {
             self.expand(simd, system, x, load, series);
@@ -187,7 +187,7 @@ impl IntervalTables {
         system: &System,
         x: &[f64],
         load: &Load,
-        series: &mut Series,
+        series: &mut ModalSeries,
     ) {
         self.expand_to(simd, self.orders, system, x, load, series);
     }
@@ -200,7 +200,7 @@ impl IntervalTables {
         system: &System,
         x: &[f64],
         load: &Load,
-        series: &mut Series,
+        series: &mut ModalSeries,
     ) {
         let inputs = if self.slip { 4 + x.len() } else { x.len() };
         if self.series.len() < orders * (x.len() / 4) * inputs {
@@ -224,7 +224,7 @@ impl IntervalTables {
         system: &System,
         (x, load): (&[f64], &Load),
         part: f64,
-        series: &mut Series,
+        series: &mut ModalSeries,
         out: &mut [f64],
     ) {
         if let Some(Parts { maps, .. }) = &self.parts {

@@ -90,7 +90,7 @@ pub(crate) struct Exit {
     /// Constant part.
     pub(crate) constant: f64,
     /// What is reached there.
-    pub(crate) reached: Reached,
+    pub(crate) reached: BranchEnd,
 }
 
 /// Most exits of a branch.
@@ -98,7 +98,7 @@ pub(crate) const EXITS: usize = 4;
 
 /// What is reached where a branch ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Reached {
+pub(crate) enum BranchEnd {
     /// The elastic stop changes its contact; at this `s`, where that is a level.
     Contact(Contact, Option<f64>),
     /// A rigid stop on a side, at this `s`.
@@ -118,7 +118,7 @@ pub(crate) struct TwoBranches {
     pub(crate) kinetic_n: [f64; 2],
 }
 
-impl Reached {
+impl BranchEnd {
     /// `s` and `ṡ` where it is reached in a direction, of which one is known, from both as computed.
     #[inline(always)]
     pub(crate) fn place(&self, direction: Direction, [s, w]: [f64; 2]) -> [f64; 2] {

@@ -25,14 +25,14 @@ use crate::error::ModelError;
 pub struct Friction {
     /// `μ_s` towards +x and −x.
     fixed: [f64; 2],
-    kinetic: Kinetic,
+    kinetic: KineticFriction,
     /// How they follow the pressure: they are those at rest.
     pressure: Option<PressureLaw>,
 }
 
 /// Kinetic friction.
 #[derive(Clone, Debug, PartialEq)]
-enum Kinetic {
+enum KineticFriction {
     /// `μ_k` towards +x and −x.
     Constant([f64; 2]),
     /// `μ_k` by the sliding speed.
@@ -55,7 +55,7 @@ impl Friction {
     /// above the static one of its direction.
     pub fn by_direction(fixed: [f64; 2], kinetic: [f64; 2]) -> Result<Self, ModelError> {
         check(fixed, kinetic)?;
-        Ok(Self { fixed, kinetic: Kinetic::Constant(kinetic), pressure: None })
+        Ok(Self { fixed, kinetic: KineticFriction::Constant(kinetic), pressure: None })
     }
 
     /// Static coefficients for sliding towards +x and −x, and kinetic friction by the sliding speed.
@@ -64,7 +64,7 @@ impl Friction {
     /// As [`Friction::by_direction`] for the kinetic coefficients at rest.
     pub fn by_speed(fixed: [f64; 2], kinetic: RateLaw) -> Result<Self, ModelError> {
         check(fixed, Direction::BOTH.map(|direction| kinetic.at(0.0, direction)))?;
-        Ok(Self { fixed, kinetic: Kinetic::BySpeed(kinetic), pressure: None })
+        Ok(Self { fixed, kinetic: KineticFriction::BySpeed(kinetic), pressure: None })
     }
 
     /// Friction whose coefficients, so far those at the reference pressure of a law, follow the pressure: from here on
@@ -95,8 +95,8 @@ impl Friction {
     #[must_use]
     pub fn kinetic_coefficient(&self, direction: Direction) -> f64 {
         match &self.kinetic {
-            Kinetic::Constant(kinetic) => direction.of(*kinetic),
-            Kinetic::BySpeed(rate) => rate.at(0.0, direction),
+            KineticFriction::Constant(kinetic) => direction.of(*kinetic),
+            KineticFriction::BySpeed(rate) => rate.at(0.0, direction),
         }
     }
 
@@ -105,8 +105,8 @@ impl Friction {
     #[must_use]
     pub fn rate(&self) -> Option<&RateLaw> {
         match &self.kinetic {
-            Kinetic::Constant(_) => None,
-            Kinetic::BySpeed(rate) => Some(rate),
+            KineticFriction::Constant(_) => None,
+            KineticFriction::BySpeed(rate) => Some(rate),
         }
     }
 
@@ -117,8 +117,10 @@ impl Friction {
     pub fn scaled(&self, factor: f64) -> Result<Self, ModelError> {
         check_factor(factor)?;
         let kinetic = match &self.kinetic {
-            Kinetic::Constant(kinetic) => Kinetic::Constant(kinetic.map(|mu| factor * mu)),
-            Kinetic::BySpeed(rate) => Kinetic::BySpeed(rate.scaled(factor)),
+            KineticFriction::Constant(kinetic) => {
+                KineticFriction::Constant(kinetic.map(|mu| factor * mu))
+            }
+            KineticFriction::BySpeed(rate) => KineticFriction::BySpeed(rate.scaled(factor)),
         };
         Ok(Self { fixed: self.fixed.map(|mu| factor * mu), kinetic, pressure: self.pressure })
     }

@@ -22,7 +22,7 @@ pub(crate) struct Hold {
     pub(super) pressing: Pressing,
     /// Whether a rigid stop holds what friction cannot: a push of the ground towards −x (the block
     /// leans on the stop towards +x), and one towards +x.
-    pub(crate) leans: [bool; 2],
+    pub(crate) bears_on_stop: [bool; 2],
 }
 
 impl Hold {
@@ -30,12 +30,12 @@ impl Hold {
     pub(crate) fn of_friction(coefficient: f64) -> Self {
         let friction = [-coefficient, coefficient];
         let pressing = Pressing::default();
-        Self { force_n: 0.0, of_normal: 0.0, friction, pressing, leans: [false; 2] }
+        Self { force_n: 0.0, of_normal: 0.0, friction, pressing, bears_on_stop: [false; 2] }
     }
 
     /// What holds off rigid stops.
     pub(crate) fn off_stops(self) -> Self {
-        Self { leans: [false; 2], ..self }
+        Self { bears_on_stop: [false; 2], ..self }
     }
 
     /// What springs and stops do at rest, as a force in slip is said.
@@ -72,8 +72,8 @@ impl Hold {
     pub(crate) fn holds_n(&self, normal_n: f64) -> [f64; 2] {
         let [low, high] = self.friction_n(normal_n);
         [
-            if self.leans[0] { f64::NEG_INFINITY } else { low },
-            if self.leans[1] { f64::INFINITY } else { high },
+            if self.bears_on_stop[0] { f64::NEG_INFINITY } else { low },
+            if self.bears_on_stop[1] { f64::INFINITY } else { high },
         ]
     }
 
@@ -122,7 +122,7 @@ impl Hold {
 
     /// Whether a force can make the block slide in a direction.
     pub(crate) fn gives(&self, direction: Direction) -> bool {
-        self.size(direction).is_finite() && !direction.of(self.leans)
+        self.size(direction).is_finite() && !direction.of(self.bears_on_stop)
     }
 
     /// How far a demand and a normal force, linear in time, leave the block from sliding in a direction:
@@ -150,7 +150,7 @@ impl Hold {
         let sides = [0, 1].map(|side| {
             let (sign, bound) = (if side == 0 { -1.0 } else { 1.0 }, self.friction[side]);
             let beyond = core::array::from_fn(|k| sign * asked[k] - sign * (bound * pressing_n[k]));
-            self.leans[side].then_some((sign, beyond))
+            self.bears_on_stop[side].then_some((sign, beyond))
         });
         sides.into_iter().flatten()
     }

@@ -8,7 +8,7 @@ use super::{Bearing, Direction, Pressing, RateCurve, Restoring, Slider};
 pub(crate) struct Isotropic {
     /// The forces that friction holds, in N.
     pub(crate) hold: Disc,
-    pub(crate) kinetic: Kinetic,
+    pub(crate) kinetic: IsotropicFriction,
     /// `K1` in N/m without that of a pendulum, which is `N/R`: `1/R` in 1/m, 0 without one.
     pub(crate) stiffness_n_per_m: f64,
     pub(crate) per_radius: f64,
@@ -16,7 +16,7 @@ pub(crate) struct Isotropic {
 
 /// `μ_k` by the sliding speed `r`.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Kinetic {
+pub(crate) struct IsotropicFriction {
     curve: Curve,
     /// The normal force that it is of.
     pressing: Pressing,
@@ -44,7 +44,7 @@ impl SpeedLine {
     }
 }
 
-impl Kinetic {
+impl IsotropicFriction {
     /// Whether it is the same at all speeds.
     #[inline(always)]
     pub(crate) fn is_constant(&self) -> bool {
@@ -196,7 +196,7 @@ impl Slider {
                 (curve, factor == other)
             }
         };
-        let kinetic = Kinetic { curve, pressing };
+        let kinetic = IsotropicFriction { curve, pressing };
         let refused = [
             (self.stop().is_some(), "a stop"),
             (fixed[0] != fixed[1] || !alike, "friction by direction"),

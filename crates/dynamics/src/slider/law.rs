@@ -6,11 +6,11 @@
 //! [`Law::begin`]). Friction is a function of the normal force; where a branch is affine under one, it is
 //! so by one [`Affine`] force.
 
-use super::branch::{EXITS, Exit, Reached, Restraint, Restraints, SlipForce, TwoBranches};
+use super::branch::{BranchEnd, EXITS, Exit, Restraint, Restraints, SlipForce, TwoBranches};
 use super::hold::Hold;
 use super::rate::{Coefficient, RateCurve, RateLaw};
 use super::series::{SeriesState, SurfacesInSeries};
-use super::stop::{Pads, Walls};
+use super::stop::{ElasticStop, RigidStop};
 use super::{Bearing, Contact, Direction, Friction, Pressing, Slider, StopKind};
 
 /// Levels nearer to a rigid stop than this part of its distance are at it.
@@ -36,8 +36,8 @@ pub(crate) struct Law<'a> {
 #[derive(Clone, Copy, Debug)]
 enum Stopping {
     Nothing,
-    Pads(Pads),
-    Walls(Walls),
+    ElasticStop(ElasticStop),
+    RigidStop(RigidStop),
 }
 
 /// What the force depends on besides `s`, `ṡ` and `N`.
@@ -63,10 +63,10 @@ impl Slider {
             Some(stop) => match stop.kind {
                 StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } => {
                     let restraint = Restraint { stiffness_n_per_m, damper_n_s_per_m };
-                    Stopping::Pads(Pads { gap_m: stop.gap_m, restraint })
+                    Stopping::ElasticStop(ElasticStop { gap_m: stop.gap_m, restraint })
                 }
                 StopKind::Rigid { restitution } => {
-                    Stopping::Walls(Walls { gap_m: stop.gap_m, restitution })
+                    Stopping::RigidStop(RigidStop { gap_m: stop.gap_m, restitution })
                 }
             },
         };
@@ -117,7 +117,7 @@ impl<'a> Law<'a> {
     /// What a method that sees the block at samples alone cannot follow: what jumps, and what remembers.
     pub(crate) fn beyond_samples(&self) -> Option<&'static str> {
         match (self.ends, self.bearing) {
-            (Stopping::Walls(_), _) => Some("a rigid stop"),
+            (Stopping::RigidStop(_), _) => Some("a rigid stop"),
             (_, Bearing::InSeries(_)) => Some("surfaces in series"),
             (_, Bearing::Surface { .. }) => None,
         }
@@ -131,7 +131,7 @@ impl<'a> Law<'a> {
     /// Whether it presses against what gives way there: contact is part of a knot.
     #[inline(always)]
     pub(crate) fn has_pads(&self) -> bool {
-        matches!(self.ends, Stopping::Pads(_))
+        matches!(self.ends, Stopping::ElasticStop(_))
     }
 
     /// Distances from `s = 0` towards +x and −x in m at which it is struck and rebounds.
@@ -167,17 +167,17 @@ impl<'a> Law<'a> {
     }
 
     #[inline(always)]
-    fn pads(&self) -> Option<&Pads> {
+    fn pads(&self) -> Option<&ElasticStop> {
         match &self.ends {
-            Stopping::Pads(pads) => Some(pads),
+            Stopping::ElasticStop(pads) => Some(pads),
             _ => None,
         }
     }
 
     #[inline(always)]
-    fn walls(&self) -> Option<&Walls> {
+    fn walls(&self) -> Option<&RigidStop> {
         match &self.ends {
-            Stopping::Walls(walls) => Some(walls),
+            Stopping::RigidStop(walls) => Some(walls),
             _ => None,
         }
     }
@@ -316,7 +316,7 @@ impl<'a> Law<'a> {
         };
         let wall = self.walls().and_then(|walls| walls.place(direction));
         if let Some(place) = wall {
-            all[0] = level(place, Reached::Wall(direction, place));
+            all[0] = level(place, BranchEnd::Wall(direction, place));
         }
         // Bounces lead the surfaces back to where they were at the stop: what joins there does not.
         let before_wall =
@@ -325,16 +325,16 @@ impl<'a> Law<'a> {
             && let Some(place) = series.next_level(&memory.series, direction)
             && before_wall(place)
         {
-            all[2] = level(place, Reached::Surface(place));
+            all[2] = level(place, BranchEnd::Surface(place));
         }
         if let Some(rate) = self.bearing.rate() {
             let [below, above] = rate.ends(memory.piece);
             if let Some(speed) = below {
-                let reached = Reached::Knot(speed, memory.piece - 1);
+                let reached = BranchEnd::Knot(speed, memory.piece - 1);
                 all[2] = Some(Exit { of_s: 0.0, of_w: sign, constant: -speed, reached });
             }
             if let Some(speed) = above {
-                let reached = Reached::Knot(speed, memory.piece + 1);
+                let reached = BranchEnd::Knot(speed, memory.piece + 1);
                 all[3] = Some(Exit { of_s: 0.0, of_w: -sign, constant: speed, reached });
             }
         }
@@ -346,7 +346,7 @@ impl<'a> Law<'a> {
     pub(crate) fn hold(&self, memory: &Memory, s: f64) -> Hold {
         let stop_n = self.pads().map_or(0.0, |pads| pads.force_n(memory.contact, s, 0.0));
         let force_n = self.restraint.stiffness_n_per_m * s + stop_n;
-        let leans = match self.walls() {
+        let bears_on_stop = match self.walls() {
             Some(walls) => Direction::BOTH.map(|side| {
                 walls.place(side).is_some_and(|place| side.sign() * (s - place) >= 0.0)
             }),
@@ -363,7 +363,7 @@ impl<'a> Law<'a> {
                 (of_normal, [-bound(Direction::Positive), bound(Direction::Negative)])
             }
         };
-        Hold { force_n, of_normal, friction, pressing: self.pressing, leans }
+        Hold { force_n, of_normal, friction, pressing: self.pressing, bears_on_stop }
     }
 
     /// Friction over the normal force once the block begins to slide at `s`: the size of what resists
@@ -427,16 +427,16 @@ impl<'a> Law<'a> {
 
     /// Follows the end of a branch other than a wall; what slides must be decided at the end of all
     /// travel.
-    pub(crate) fn follow(&self, memory: &mut Memory, reached: Reached, direction: Direction) {
+    pub(crate) fn follow(&self, memory: &mut Memory, reached: BranchEnd, direction: Direction) {
         match reached {
-            Reached::Contact(to, _) => memory.contact = to,
-            Reached::Knot(_, piece) => memory.piece = piece,
-            Reached::Surface(place) => {
+            BranchEnd::Contact(to, _) => memory.contact = to,
+            BranchEnd::Knot(_, piece) => memory.piece = piece,
+            BranchEnd::Surface(place) => {
                 if let Some(series) = self.bearing.series() {
                     series.reach(&mut memory.series, place, direction);
                 }
             }
-            Reached::Wall(..) => {}
+            BranchEnd::Wall(..) => {}
         }
     }
 

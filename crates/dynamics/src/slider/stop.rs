@@ -4,7 +4,7 @@
 //! pulls; left behind, it has recovered. Mirrored on the other side.
 
 use super::Direction;
-use super::branch::{Exit, Reached, Restraint};
+use super::branch::{BranchEnd, Exit, Restraint};
 use super::ranges::{in_range, not_negative, positive};
 use crate::error::ModelError;
 
@@ -100,7 +100,7 @@ pub enum Contact {
 
 /// Pads at the ends of the gap.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Pads {
+pub(super) struct ElasticStop {
     /// Distances from `s = 0` to the pads towards +x and −x in m; none where there is no pad.
     pub(super) gap_m: [Option<f64>; 2],
     /// `k` and `c` of a pad.
@@ -109,7 +109,7 @@ pub(super) struct Pads {
 
 /// Stops that do not give way: `ṡ⁺ = −e ṡ⁻` at the end of the gap.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Walls {
+pub(super) struct RigidStop {
     /// Distances from `s = 0` to the stops towards +x and −x in m; none where there is no stop.
     pub(super) gap_m: [Option<f64>; 2],
     /// `e`, from 0 to 1.
@@ -125,14 +125,14 @@ fn place([positive, negative]: [Option<f64>; 2], side: Direction) -> Option<f64>
     }
 }
 
-impl Walls {
+impl RigidStop {
     /// `s` at the stop on a side.
     pub(super) fn place(&self, side: Direction) -> Option<f64> {
         place(self.gap_m, side)
     }
 }
 
-impl Pads {
+impl ElasticStop {
     /// `s` at the pad on a side.
     fn place(&self, side: Direction) -> Option<f64> {
         place(self.gap_m, side)
@@ -165,7 +165,7 @@ impl Pads {
             let place = self.place(side)?;
             let of_s = if inward { -side.sign() } else { side.sign() };
             let constant = -of_s * place;
-            let reached = Reached::Contact(to, Some(place));
+            let reached = BranchEnd::Contact(to, Some(place));
             Some(Exit { of_s, of_w: 0.0, constant, reached })
         };
         // ±(k δ + c ṡ)
@@ -176,7 +176,7 @@ impl Pads {
                 of_s: sign * k,
                 of_w: sign * c,
                 constant: sign * self.constant_n(side),
-                reached: Reached::Contact(to, None),
+                reached: BranchEnd::Contact(to, None),
             })
         };
         match contact {

@@ -94,7 +94,7 @@ pub(super) struct Near {
 }
 
 /// Modes and law, and what the events have left behind.
-pub(super) struct Course<'a> {
+pub(super) struct WalkState<'a> {
     pub(super) slider: SliderState<'a>,
     /// The slider as an interface.
     pub(super) block: Interface,
@@ -119,7 +119,7 @@ pub(super) struct Instant {
     pub(super) mass_kg: f64,
 }
 
-impl<'a> Course<'a> {
+impl<'a> WalkState<'a> {
     /// Before anything has happened, in the lists of another.
     pub(super) fn new(
         slider: SliderState<'a>,

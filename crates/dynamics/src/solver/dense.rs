@@ -6,7 +6,7 @@
 //! registers. It goes on while nothing is in doubt and hands over by returning, in the midst of a sample if
 //! need be: two roots near each other, an event on a sample, a demand at its bound are left to event
 //! stepping, and so is every motion with an irregular interval. It decides nothing by itself: what follows an event is
-//! said by [`Course`]. The book's chapter "Theory" has the bounds and their proofs.
+//! said by [`WalkState`]. The book's chapter "Theory" has the bounds and their proofs.
 
 mod ahead;
 mod equations;
@@ -22,9 +22,9 @@ mod tables;
 use fearless_simd::prelude::*;
 
 use self::ahead::Ahead;
-use super::course::Course;
+use super::course::WalkState;
 use super::ground::{Ground, Normal};
-use super::phase::Reached;
+use super::phase::Advance;
 use super::recorder::Recorder;
 use super::windows::Windows;
 use crate::error::SolveError;
@@ -56,7 +56,7 @@ pub(super) struct Shared<'r, 'a> {
     pub(super) x: &'r mut [f64; 4],
     /// Peaks attained so far, in the order of the outputs.
     pub(super) peak: &'r mut Kept,
-    pub(super) course: &'r mut Course<'a>,
+    pub(super) course: &'r mut WalkState<'a>,
     pub(super) candidates: &'r mut Vec<Candidate>,
     pub(super) recorder: Option<&'r mut Recorder>,
     pub(super) pulse: &'r mut Pulse<'a>,
@@ -86,7 +86,7 @@ impl<'a> Dense<'a> {
         simd: S,
         shared: Shared<'_, 'a>,
         samples: [usize; 2],
-    ) -> Result<Reached, SolveError> {
+    ) -> Result<Advance, SolveError> {
         simd.vectorize(
             #[inline(always)]
             || Ahead::new(simd, self, shared).go(samples),

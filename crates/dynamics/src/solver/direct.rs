@@ -12,9 +12,9 @@ mod peaks;
 use self::ahead::Ahead;
 use self::body::{Body, Expansion, InForce, Loads, State};
 use self::peaks::{Peaks, history};
-use super::course::Course;
+use super::course::WalkState;
 use super::ground::{Ground, Stretch};
-use super::phase::{Of, Phase, Reached, Segment, Straight, fitting};
+use super::phase::{Advance, LinePhase, Of, Phase, Segment, fitting};
 use super::slider::{ROUNDING, SliderState};
 use super::tables::system_of;
 use super::walk::Walk;
@@ -23,7 +23,7 @@ use crate::linear::polynomial::{DEGREE, Polynomial};
 use crate::model::Model;
 use crate::notice::{Notice, NoticeKind};
 use crate::numerics::InstructionSet;
-use crate::progress::{GoOn, Pulse};
+use crate::progress::{Cancel, Pulse};
 use crate::response::output::{self, Output};
 use crate::response::{ContentsDemands, Event, EventKind, History, Mode};
 use crate::slider::{Hold, Law, SlipForce};
@@ -46,7 +46,7 @@ pub(super) fn solve(
     law: &Law<'_>,
     ground: Ground<'_>,
     instructions: InstructionSet,
-    (with_history, go_on): (bool, GoOn<'_>),
+    (with_history, go_on): (bool, Cancel<'_>),
 ) -> Result<Stepped, SolveError> {
     let mut walk = start(model, law, ground, instructions, (with_history, Pulse::new(go_on)));
     walk.go()?;
@@ -63,8 +63,8 @@ fn start<'a>(
 ) -> Walk<'a, Direct<'a>> {
     let phase = Direct::new(model, law, ground, instructions, with_history);
     let count = phase.body.contents.len();
-    let [s, w] = phase.place(0);
-    let course = Course::new(SliderState::new(law, s, w), [s, w], (Vec::new(), Vec::new()))
+    let [s, w] = phase.position_and_velocity(0);
+    let course = WalkState::new(SliderState::new(law, s, w), [s, w], (Vec::new(), Vec::new()))
         .with_contents(count);
     let before = [model.slope_m_per_s2(), model.normal_n()];
     let units = 128 * (1 + model.storeys() + count) as u32;
@@ -216,16 +216,16 @@ impl<'a> Phase<'a> for Direct<'a> {
     fn run_ahead(
         walk: &mut Walk<'a, Self>,
         [sample, end]: [usize; 2],
-    ) -> Result<Reached, SolveError> {
+    ) -> Result<Advance, SolveError> {
         let sample = ahead::run_ahead(walk, [sample, end]);
-        Ok(Reached { sample, at_s: 0.0 })
+        Ok(Advance { sample, at_s: 0.0 })
     }
 
     fn settle(walk: &mut Walk<'a, Self>) {
         walk.phase.settle_candidates(&mut walk.course);
     }
 
-    fn enter(&mut self, course: &Course<'a>) {
+    fn update_branch(&mut self, course: &WalkState<'a>) {
         self.modes.clear();
         self.modes.extend((0..course.interfaces()).map(|i| course.mode(i)));
         self.force = match self.modes[0] {
@@ -234,7 +234,7 @@ impl<'a> Phase<'a> for Direct<'a> {
         };
     }
 
-    fn place(&self, interface: usize) -> [f64; 2] {
+    fn position_and_velocity(&self, interface: usize) -> [f64; 2] {
         match interface.checked_sub(1) {
             None => [self.x.s, self.x.w],
             Some(i) => [self.x.r[i], self.x.p[i]],
@@ -245,7 +245,7 @@ impl<'a> Phase<'a> for Direct<'a> {
         self.history.is_some()
     }
 
-    fn record_sample(&mut self, course: &Course<'a>, sample: usize, row: bool) {
+    fn record_sample(&mut self, course: &WalkState<'a>, sample: usize, row: bool) {
         let normal = self.ground.normal_at(sample).max(0.0);
         let loads =
             Loads { acceleration: [self.ground.acceleration[sample], 0.0], normal: [normal, 0.0] };
@@ -255,7 +255,7 @@ impl<'a> Phase<'a> for Direct<'a> {
 
     fn record_between(
         &mut self,
-        course: &Course<'a>,
+        course: &WalkState<'a>,
         knot: [f64; 2],
         (stretch, at_s): (&Stretch, f64),
         row: bool,
@@ -264,15 +264,15 @@ impl<'a> Phase<'a> for Direct<'a> {
     }
 }
 
-impl<'a> Straight<'a> for Direct<'a> {
-    fn put(&mut self, interface: usize, place: [f64; 2]) {
+impl<'a> LinePhase<'a> for Direct<'a> {
+    fn set_position_and_velocity(&mut self, interface: usize, place: [f64; 2]) {
         match interface.checked_sub(1) {
             None => [self.x.s, self.x.w] = place,
             Some(i) => [self.x.r[i], self.x.p[i]] = place,
         }
     }
 
-    fn strike(&mut self, change: f64) {
+    fn apply_impulse(&mut self, change: f64) {
         self.x.v.iter_mut().for_each(|v| *v += change);
         for (contents, p) in self.body.contents.iter().zip(&mut self.x.p) {
             if contents.floor == 0 {
@@ -291,7 +291,7 @@ impl<'a> Straight<'a> for Direct<'a> {
         self.x.set(state);
     }
 
-    fn demand_n(&mut self, hold: &Hold, [acceleration, normal_n]: [f64; 2]) -> f64 {
+    fn required_friction_n(&mut self, hold: &Hold, [acceleration, normal_n]: [f64; 2]) -> f64 {
         let springs_n = hold.force_n + hold.of_normal * normal_n;
         (self.block_kg() * acceleration + springs_n) - self.body.shear_n(&self.x)
     }
@@ -301,7 +301,7 @@ impl<'a> Straight<'a> for Direct<'a> {
     }
 
     /// Expands the motion from a time of a stretch over as much of it as one series takes.
-    fn expand(&mut self, _: &Course<'a>, stretch: &Stretch, from_s: f64) -> Segment {
+    fn expand(&mut self, _: &WalkState<'a>, stretch: &Stretch, from_s: f64) -> Segment {
         let loads = Loads::at(stretch, from_s);
         let left_s = stretch.to_s - from_s;
         let in_force = InForce { modes: &self.modes, force: self.force };
@@ -321,7 +321,7 @@ impl<'a> Straight<'a> for Direct<'a> {
         segment
     }
 
-    fn look_at_instant(&mut self, _: &Course<'a>, stretch: &Stretch, at_s: f64) {
+    fn look_at_instant(&mut self, _: &WalkState<'a>, stretch: &Stretch, at_s: f64) {
         self.look_at_orders(0, &Loads::at(stretch, at_s));
         self.instant.from_s = at_s;
     }
@@ -359,7 +359,7 @@ impl<'a> Straight<'a> for Direct<'a> {
         core::array::from_fn(|k| own[k] - under[k])
     }
 
-    fn asked(&self, of: Of, interface: usize) -> &Polynomial {
+    fn required_friction(&self, of: Of, interface: usize) -> &Polynomial {
         let series = self.expansion(of);
         interface.checked_sub(1).map_or(&series.friction, |i| &series.carried[i])
     }
@@ -370,14 +370,14 @@ impl<'a> Straight<'a> for Direct<'a> {
         [now, change]
     }
 
-    fn hold(&self, course: &Course<'a>, interface: usize) -> Hold {
+    fn hold(&self, course: &WalkState<'a>, interface: usize) -> Hold {
         match interface.checked_sub(1) {
             None => course.hold(self.x.s),
             Some(i) => Hold::of_friction(self.body.contents[i].static_friction),
         }
     }
 
-    fn rounding_m_per_s2(&self, _: &Course<'a>, of: Of, interface: usize) -> f64 {
+    fn rounding_m_per_s2(&self, _: &WalkState<'a>, of: Of, interface: usize) -> f64 {
         let (p, y) = (self.expansion(of), &self.peaks.values);
         let floor = if interface == 0 { 0 } else { self.body.contents[interface - 1].floor };
         let mass_kg = self.body.joined_kg(floor, &self.modes);
@@ -414,7 +414,7 @@ impl<'a> Straight<'a> for Direct<'a> {
         }
     }
 
-    fn look(&mut self, course: &mut Course<'a>, _: &Stretch, segment: &Segment) {
+    fn look(&mut self, course: &mut WalkState<'a>, _: &Stretch, segment: &Segment) {
         self.look_at_outputs(course, segment.part);
     }
 }

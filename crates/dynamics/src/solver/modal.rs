@@ -17,11 +17,11 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use self::series::Motion;
-use super::course::Course;
+use super::course::WalkState;
 use super::dense::{self, Dense};
 use super::ground::{Ground, Normal, Roughness, Stretch};
-use super::outputs::Group;
-use super::phase::{Of, Phase, Reached, Segment, Straight};
+use super::outputs::OutputGroup;
+use super::phase::{Advance, LinePhase, Of, Phase, Segment};
 use super::recorder::{Knot, Recorder};
 use super::slider::ROUNDING;
 use super::tables::{Batch, LazyPhase, PhaseTables, Tables};
@@ -29,7 +29,7 @@ use super::walk::Walk;
 use crate::error::SolveError;
 use crate::linear::lanes::{Eight, Many, One, Width, combine8, dot, eight};
 use crate::linear::polynomial::{Polynomial, derivative};
-use crate::linear::{BATCH, Force, Series};
+use crate::linear::{BATCH, Force, ModalSeries};
 use crate::numerics::InstructionSet;
 use crate::numerics::instructions::vectorize;
 use crate::response::Mode;
@@ -59,7 +59,7 @@ impl Curvature {
     /// How far outputs of a group depart from a chord within one sample, `reach` being `h²/8`: for
     /// `y = c·x + …`, `|ÿ| ≤ min(|c|* ‖ẍ‖, |c A|* ‖ẋ‖ + |c b| |ȧ| + …)`.
     #[inline(always)]
-    pub(super) fn slack<S: Simd>(&self, simd: S, group: &Group, reach: f64) -> f64x8<S> {
+    pub(super) fn slack<S: Simd>(&self, simd: S, group: &OutputGroup, reach: f64) -> f64x8<S> {
         let by_second = group.norm.load(simd) * eight(simd, self.second);
         let by_first = group.norm_of_rate.load(simd) * eight(simd, self.first)
             + (group.of_jerk.load(simd) * eight(simd, self.jerk)
@@ -69,13 +69,18 @@ impl Curvature {
 
     /// The same from a chord over the batch, in which the loads have kinks.
     #[inline(always)]
-    pub(super) fn slack_over_batch<S: Simd>(&self, simd: S, group: &Group, reach: f64) -> f64x8<S> {
+    pub(super) fn slack_over_batch<S: Simd>(
+        &self,
+        simd: S,
+        group: &OutputGroup,
+        reach: f64,
+    ) -> f64x8<S> {
         self.slack(simd, group, reach) + self.bend(simd, group)
     }
 
     /// What the kinks of the loads alone add over a batch.
     #[inline(always)]
-    pub(super) fn bend<S: Simd>(&self, simd: S, group: &Group) -> f64x8<S> {
+    pub(super) fn bend<S: Simd>(&self, simd: S, group: &OutputGroup) -> f64x8<S> {
         group.size_of_a.load(simd) * eight(simd, self.bend_of_a)
             + group.size_of_friction.load(simd) * eight(simd, self.bend_of_force)
     }
@@ -163,7 +168,7 @@ pub(super) struct Modal<'a> {
     next: Vec<f64>,
     /// Outputs in `x`, where they are known.
     values: Vec<Eight>,
-    series: Series,
+    series: ModalSeries,
     /// What was expanded last, and what is known of an instant.
     motion: Motion,
     instant: Motion,
@@ -389,7 +394,7 @@ impl<'a> Modal<'a> {
     #[inline(never)]
     fn record_knot(
         &mut self,
-        course: &Course<'a>,
+        course: &WalkState<'a>,
         time_s: f64,
         [table, acceleration, normal]: [f64; 3],
         row: bool,
@@ -438,18 +443,18 @@ impl<'a> Phase<'a> for Modal<'a> {
     fn run_ahead(
         walk: &mut Walk<'a, Self>,
         [sample, end]: [usize; 2],
-    ) -> Result<Reached, SolveError> {
+    ) -> Result<Advance, SolveError> {
         let instructions = walk.phase.instructions;
         if let Some((dense, shared)) = Self::sharing(walk) {
             let ahead =
                 vectorize!(instructions, simd => dense.run_ahead(simd, shared, [sample, end]));
             let reached = ahead?;
-            walk.phase.enter(&walk.course);
+            walk.phase.update_branch(&walk.course);
             return Ok(reached);
         }
         let (phase, course) = (&mut walk.phase, (&walk.course, &mut walk.pulse));
         let sample = by!(phase, how => phase.screened(how, course, sample, end));
-        Ok(Reached { sample, at_s: 0.0 })
+        Ok(Advance { sample, at_s: 0.0 })
     }
 
     fn settle(walk: &mut Walk<'a, Self>) {
@@ -462,7 +467,7 @@ impl<'a> Phase<'a> for Modal<'a> {
     }
 
     /// Finds what follows from mode and memory.
-    fn enter(&mut self, course: &Course<'a>) {
+    fn update_branch(&mut self, course: &WalkState<'a>) {
         let (mode, memory, s) = (course.block.mode, &course.slider.memory, self.x[0]);
         let normal_n = match self.ground.normal {
             Normal::Constant(normal_n) => normal_n,
@@ -492,7 +497,7 @@ impl<'a> Phase<'a> for Modal<'a> {
     }
 
     #[inline(always)]
-    fn place(&self, _: usize) -> [f64; 2] {
+    fn position_and_velocity(&self, _: usize) -> [f64; 2] {
         [self.x[0], self.x[1]]
     }
 
@@ -502,7 +507,7 @@ impl<'a> Phase<'a> for Modal<'a> {
     }
 
     #[inline(never)]
-    fn record_sample(&mut self, course: &Course<'a>, sample: usize, row: bool) {
+    fn record_sample(&mut self, course: &WalkState<'a>, sample: usize, row: bool) {
         let normal = self.ground.normal_at(sample).max(0.0);
         let (table, a) = (self.ground.table[sample], self.ground.acceleration[sample]);
         self.record_knot(course, self.ground.times_s[sample], [table, a, normal], row);
@@ -510,7 +515,7 @@ impl<'a> Phase<'a> for Modal<'a> {
 
     fn record_between(
         &mut self,
-        course: &Course<'a>,
+        course: &WalkState<'a>,
         [time_s, table]: [f64; 2],
         (stretch, at_s): (&Stretch, f64),
         row: bool,
@@ -520,14 +525,14 @@ impl<'a> Phase<'a> for Modal<'a> {
     }
 }
 
-impl<'a> Straight<'a> for Modal<'a> {
+impl<'a> LinePhase<'a> for Modal<'a> {
     #[inline(always)]
-    fn put(&mut self, _: usize, place: [f64; 2]) {
+    fn set_position_and_velocity(&mut self, _: usize, place: [f64; 2]) {
         [self.x[0], self.x[1]] = place;
     }
 
     /// `L` is what a unit of velocity of all floors is of the modes.
-    fn strike(&mut self, change: f64) {
+    fn apply_impulse(&mut self, change: f64) {
         let system = &self.tables.stick.system;
         let rates = &mut self.x[2 + system.modes()..];
         for (rate, l) in rates.iter_mut().zip(&system.participation) {
@@ -544,7 +549,7 @@ impl<'a> Straight<'a> for Modal<'a> {
     }
 
     #[inline(always)]
-    fn demand_n(&mut self, hold: &Hold, [acceleration, _]: [f64; 2]) -> f64 {
+    fn required_friction_n(&mut self, hold: &Hold, [acceleration, _]: [f64; 2]) -> f64 {
         let (system, n) = (&self.tables.stick.system, self.modes);
         let (eta, rate) = (&self.x[2..2 + n], &self.x[2 + n..2 + 2 * n]);
         let f = &mut self.scratch[0];
@@ -558,12 +563,12 @@ impl<'a> Straight<'a> for Modal<'a> {
     }
 
     #[inline(always)]
-    fn expand(&mut self, _: &Course<'a>, stretch: &Stretch, from_s: f64) -> Segment {
+    fn expand(&mut self, _: &WalkState<'a>, stretch: &Stretch, from_s: f64) -> Segment {
         self.expand_from(stretch, from_s);
         self.motion.segment
     }
 
-    fn look_at_instant(&mut self, _: &Course<'a>, stretch: &Stretch, at_s: f64) {
+    fn look_at_instant(&mut self, _: &WalkState<'a>, stretch: &Stretch, at_s: f64) {
         let fading_s = self.fading_s;
         swap(&mut self.motion, &mut self.instant);
         self.expand_from(stretch, at_s);
@@ -600,7 +605,7 @@ impl<'a> Straight<'a> for Modal<'a> {
     }
 
     #[inline(always)]
-    fn asked(&self, of: Of, _: usize) -> &Polynomial {
+    fn required_friction(&self, of: Of, _: usize) -> &Polynomial {
         &self.motion_of(of).number
     }
 
@@ -610,13 +615,13 @@ impl<'a> Straight<'a> for Modal<'a> {
     }
 
     #[inline(always)]
-    fn hold(&self, _: &Course<'a>, _: usize) -> Hold {
+    fn hold(&self, _: &WalkState<'a>, _: usize) -> Hold {
         self.hold
     }
 
     /// The terms are `M1 a`, friction, springs and stop, and the structure's pull, which is no more than what it
     /// balances.
-    fn rounding_m_per_s2(&self, _: &Course<'a>, of: Of, _: usize) -> f64 {
+    fn rounding_m_per_s2(&self, _: &WalkState<'a>, of: Of, _: usize) -> f64 {
         let InForce { mode, tables, friction, stop, .. } = self.now;
         let motion = self.motion_of(of);
         let (mass_kg, Motion { number, load, segment, .. }) = (self.block_kg(), motion);
@@ -643,7 +648,7 @@ impl<'a> Straight<'a> for Modal<'a> {
     }
 
     #[inline(always)]
-    fn look(&mut self, course: &mut Course<'a>, stretch: &Stretch, segment: &Segment) {
+    fn look(&mut self, course: &mut WalkState<'a>, stretch: &Stretch, segment: &Segment) {
         if self.law.has_pads() {
             self.look_at_stop(course, segment.part);
         }

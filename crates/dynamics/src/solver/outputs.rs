@@ -296,7 +296,7 @@ pub(super) fn rows(
 #[derive(Debug)]
 pub(super) struct Outputs {
     pub(super) rows: Vec<OutputRow>,
-    pub(super) groups: Vec<Group>,
+    pub(super) groups: Vec<OutputGroup>,
     /// Group by group: one, friction force, acceleration and stop, then the state.
     pub(super) columns: Vec<Eight>,
     /// Group by group what the amplitudes of [`System::amplitudes`] do at most, in stick.
@@ -306,7 +306,7 @@ pub(super) struct Outputs {
 
 /// What bounds eight outputs side by side.
 #[derive(Debug)]
-pub(super) struct Group {
+pub(super) struct OutputGroup {
     pub(super) constant: Eight,
     pub(super) of_stop: Eight,
     /// Largest values on states of energy norm 1.
@@ -359,7 +359,7 @@ impl Outputs {
         columns.reserve_exact(count * (4 + stride));
         for g in 0..count {
             let first = 8 * g;
-            let group = Group {
+            let group = OutputGroup {
                 constant: lanes(&rows, first, |j| rows[j].constant),
                 of_stop: lanes(&rows, first, |j| rows[j].of_stop),
                 norm: lanes(&rows, first, |j| system.dual_norm(slip, &rows[j].state)),

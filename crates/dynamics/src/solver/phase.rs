@@ -1,6 +1,6 @@
 //! What the walk asks of the motion between two events.
 
-use super::course::Course;
+use super::course::WalkState;
 use super::ground::Stretch;
 use super::walk::Walk;
 use crate::error::SolveError;
@@ -30,7 +30,7 @@ impl Segment {
 
 /// How far running ahead has come: so long after a sample, from where the walk goes on.
 #[derive(Clone, Copy)]
-pub(super) struct Reached {
+pub(super) struct Advance {
     pub(super) sample: usize,
     pub(super) at_s: f64,
 }
@@ -44,7 +44,7 @@ pub(super) trait Phase<'a> {
     ///
     /// # Errors
     /// Where the analysis is stopped.
-    fn run_ahead(walk: &mut Walk<'a, Self>, samples: [usize; 2]) -> Result<Reached, SolveError>
+    fn run_ahead(walk: &mut Walk<'a, Self>, samples: [usize; 2]) -> Result<Advance, SolveError>
     where
         Self: Sized;
 
@@ -56,10 +56,10 @@ pub(super) trait Phase<'a> {
     // ---- state ----------------------------------------------------------------------------------
 
     /// Modes or law have changed.
-    fn enter(&mut self, course: &Course<'a>);
+    fn update_branch(&mut self, course: &WalkState<'a>);
 
     /// Displacement and velocity of an interface, in two horizontal directions those along x.
-    fn place(&self, interface: usize) -> [f64; 2];
+    fn position_and_velocity(&self, interface: usize) -> [f64; 2];
 
     // ---- what is kept ---------------------------------------------------------------------------
 
@@ -67,12 +67,12 @@ pub(super) trait Phase<'a> {
     fn records(&self) -> bool;
 
     /// Records the present state as a knot at a sample, perhaps as a row of the history.
-    fn record_sample(&mut self, course: &Course<'a>, sample: usize, row: bool);
+    fn record_sample(&mut self, course: &WalkState<'a>, sample: usize, row: bool);
 
     /// The same between samples, at a time with the acceleration of the table there.
     fn record_between(
         &mut self,
-        course: &Course<'a>,
+        course: &WalkState<'a>,
         knot: [f64; 2],
         at: (&Stretch, f64),
         row: bool,
@@ -89,19 +89,19 @@ pub(super) enum Of {
 }
 
 /// A phase in one direction, in which an interface slides one way or the other: its series in the modes of a
-/// [`Course`].
+/// [`WalkState`].
 ///
 /// What an interface is *asked* for is the force of the slider in N, of contents their acceleration in
 /// m/s², with the *normal* force in the same unit.
-pub(super) trait Straight<'a>: Phase<'a> + 'a {
+pub(super) trait LinePhase<'a>: Phase<'a> + 'a {
     // ---- state ----------------------------------------------------------------------------------
 
     /// Gives the slider or contents a displacement and a velocity that an event fixes.
-    fn put(&mut self, interface: usize, place: [f64; 2]);
+    fn set_position_and_velocity(&mut self, interface: usize, place: [f64; 2]);
 
     /// Adds to the block's velocity over the ground what is taken from that of all else over the block:
     /// an impact, which what does not touch the stop does not feel.
-    fn strike(&mut self, change: f64);
+    fn apply_impulse(&mut self, change: f64);
 
     /// All that moves.
     fn state(&self) -> Vec<f64>;
@@ -111,7 +111,7 @@ pub(super) trait Straight<'a>: Phase<'a> + 'a {
 
     /// The force that keeps the block stuck under an acceleration and a normal force, eqs (8), (14), by what
     /// holds it.
-    fn demand_n(&mut self, hold: &Hold, loads: [f64; 2]) -> f64;
+    fn required_friction_n(&mut self, hold: &Hold, loads: [f64; 2]) -> f64;
 
     /// Mass of the block with what is stuck to it, in kg.
     fn block_kg(&self) -> f64;
@@ -119,10 +119,10 @@ pub(super) trait Straight<'a>: Phase<'a> + 'a {
     // ---- series ---------------------------------------------------------------------------------
 
     /// Expands the motion from a time of a stretch over as much of it as one series takes.
-    fn expand(&mut self, course: &Course<'a>, stretch: &Stretch, from_s: f64) -> Segment;
+    fn expand(&mut self, course: &WalkState<'a>, stretch: &Stretch, from_s: f64) -> Segment;
 
     /// Finds accelerations and forces of an instant.
-    fn look_at_instant(&mut self, course: &Course<'a>, stretch: &Stretch, at_s: f64);
+    fn look_at_instant(&mut self, course: &WalkState<'a>, stretch: &Stretch, at_s: f64);
 
     /// What of the motion a series is of, as far as it is exact.
     fn segment(&self, of: Of) -> Segment;
@@ -144,26 +144,27 @@ pub(super) trait Straight<'a>: Phase<'a> + 'a {
     fn acceleration(&self, of: Of, interface: usize) -> Polynomial;
 
     /// What an interface that sticks is asked for.
-    fn asked(&self, of: Of, interface: usize) -> &Polynomial;
+    fn required_friction(&self, of: Of, interface: usize) -> &Polynomial;
 
     /// What presses on it, at the start, and by how much that changes over the unit.
     fn normal(&self, of: Of, interface: usize) -> [f64; 2];
 
     /// What holds it.
-    fn hold(&self, course: &Course<'a>, interface: usize) -> Hold;
+    fn hold(&self, course: &WalkState<'a>, interface: usize) -> Hold;
 
     /// What is rounding of the acceleration of an interface over what it slides on, in m/s²: of its terms
     /// now, or of the largest so far.
-    fn rounding_m_per_s2(&self, course: &Course<'a>, of: Of, interface: usize) -> f64;
+    fn rounding_m_per_s2(&self, course: &WalkState<'a>, of: Of, interface: usize) -> f64;
 
     /// Where the slider rests against a rigid stop, or between two: how much of its push towards each friction cannot
     /// take, positive where that stop takes some; and the sign of that push.
-    fn beyond_friction(&self, course: &Course<'a>) -> Vec<(f64, Polynomial)> {
+    fn beyond_friction(&self, course: &WalkState<'a>) -> Vec<(f64, Polynomial)> {
         let mut hold = self.hold(course, 0);
         if course.block.mode != Mode::Stick {
             hold = hold.off_stops();
         }
-        hold.beyond_friction(self.asked(Of::Motion, 0), self.normal(Of::Motion, 0)).collect()
+        hold.beyond_friction(self.required_friction(Of::Motion, 0), self.normal(Of::Motion, 0))
+            .collect()
     }
 
     /// Largest velocity of an interface so far.
@@ -173,7 +174,7 @@ pub(super) trait Straight<'a>: Phase<'a> + 'a {
     fn move_to(&mut self, part: f64);
 
     /// Looks for peaks in the part of the series just gone through.
-    fn look(&mut self, course: &mut Course<'a>, stretch: &Stretch, segment: &Segment);
+    fn look(&mut self, course: &mut WalkState<'a>, stretch: &Stretch, segment: &Segment);
 }
 
 /// The length over which a series is expanded, and the part of it that the series serves, at most 1.

@@ -27,15 +27,15 @@ use self::ahead::Ahead;
 use self::force::{Force, Influence};
 use self::peaks::Peaks;
 use self::record::{Knot, Recorder};
-use self::series::{Kind, Series};
+use self::series::{Kind, PlaneSeries};
 use self::speed::Least;
 use self::stop::Instant;
 use self::system::{Loads, State};
 use self::terms::Scales;
 use self::vector::{inner, norm};
-use super::course::{self, Course};
+use super::course::{self, WalkState};
 use super::ground::{Ground, GroundAlongY, Stretch};
-use super::phase::{Phase, Reached};
+use super::phase::{Advance, Phase};
 use super::slider::leading;
 use super::walk::{Events, Walk};
 use crate::error::SolveError;
@@ -78,7 +78,7 @@ pub(super) struct Plane<'a> {
     near_s: f64,
     /// The last step was short because of rest, or of how fast its direction turns: its end is a knot.
     is_near_rest: bool,
-    series: Series,
+    series: PlaneSeries,
     influence: Influence,
     force: Force,
     scales: Scales,
@@ -115,7 +115,7 @@ impl<'a> Plane<'a> {
             next_s: f64::INFINITY,
             near_s: f64::INFINITY,
             is_near_rest: false,
-            series: Series::new(&system, instructions),
+            series: PlaneSeries::new(&system, instructions),
             influence: Influence::new(instructions, again_s),
             force: Force::new(),
             scales,
@@ -154,12 +154,12 @@ impl<'a> Plane<'a> {
     // ---- decisions ------------------------------------------------------------------------------
 
     /// Whether it slides without a velocity where friction could hold it.
-    fn has_stopped(&self, course: &Course<'a>) -> bool {
+    fn has_stopped(&self, course: &WalkState<'a>) -> bool {
         course.block.mode != Mode::Stick && !self.starts && self.state.w == [0.0; 2]
     }
 
     /// What is due at an instant, and by which margin it was decided.
-    fn due(&mut self, course: &Course<'a>, stretch: &Stretch, at_s: f64) -> Option<Due> {
+    fn due(&mut self, course: &WalkState<'a>, stretch: &Stretch, at_s: f64) -> Option<Due> {
         let is_stuck = course.block.mode == Mode::Stick;
         if !(is_stuck || self.has_stopped(course)) {
             return None;
@@ -245,16 +245,16 @@ enum Due {
 }
 
 impl<'a> Phase<'a> for Plane<'a> {
-    fn run_ahead(walk: &mut Walk<'a, Self>, samples: [usize; 2]) -> Result<Reached, SolveError> {
+    fn run_ahead(walk: &mut Walk<'a, Self>, samples: [usize; 2]) -> Result<Advance, SolveError> {
         ahead::run_ahead(walk, samples)
     }
 
     /// Its peaks are those of the steps.
     fn settle(_: &mut Walk<'a, Self>) {}
 
-    fn enter(&mut self, _: &Course<'a>) {}
+    fn update_branch(&mut self, _: &WalkState<'a>) {}
 
-    fn place(&self, _: usize) -> [f64; 2] {
+    fn position_and_velocity(&self, _: usize) -> [f64; 2] {
         [self.state.s[0], self.state.w[0]]
     }
 
@@ -262,7 +262,7 @@ impl<'a> Phase<'a> for Plane<'a> {
         self.recorder.is_some()
     }
 
-    fn record_sample(&mut self, course: &Course<'a>, sample: usize, row: bool) {
+    fn record_sample(&mut self, course: &WalkState<'a>, sample: usize, row: bool) {
         let ground = &self.ground;
         let normal_n = ground.normal_at(sample).max(0.0);
         let knot = [ground.times_s[sample], ground.table[sample], self.along_y.table[sample]];
@@ -271,7 +271,7 @@ impl<'a> Phase<'a> for Plane<'a> {
 
     fn record_between(
         &mut self,
-        course: &Course<'a>,
+        course: &WalkState<'a>,
         [time_s, table]: [f64; 2],
         (stretch, at_s): (&Stretch, f64),
         row: bool,
@@ -301,7 +301,7 @@ impl<'a> Events for Walk<'a, Plane<'a>> {
         Ok(to_s)
     }
 
-    fn is_due(&self) -> bool {
+    fn has_pending_decision(&self) -> bool {
         self.phase.is_released || self.phase.has_stopped(&self.course)
     }
 
@@ -341,7 +341,7 @@ impl<'a> Events for Walk<'a, Plane<'a>> {
         true
     }
 
-    fn look_beside_jump(&mut self, stretch: &Stretch) {
+    fn peaks_at_jump(&mut self, stretch: &Stretch) {
         let loads = self.phase.loads(stretch, 0.0);
         let phase = &mut self.phase;
         let kind = match self.course.block.mode {

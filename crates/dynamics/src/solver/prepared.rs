@@ -3,7 +3,7 @@
 use core::mem::take;
 use std::sync::Arc;
 
-use super::course::{Course, Sliding};
+use super::course::{Sliding, WalkState};
 use super::ground::{Ground, GroundAlongY, Normal, Sampling, contact_loss_s, varying_normal};
 use super::modal::{Buffers, Modal};
 use super::phase::Phase;
@@ -19,7 +19,7 @@ use crate::motion::GroundMotion;
 use crate::numerics::InstructionSet;
 use crate::numerics::fractile::upper_median;
 use crate::numerics::instructions::vectorize;
-use crate::progress::{GoOn, Pulse, UNWATCHED};
+use crate::progress::{Cancel, NEVER_CANCELLED, Pulse};
 use crate::response::{History, Method, PointFactors, Response, StopDemands};
 use crate::slider::Law;
 
@@ -145,7 +145,7 @@ impl Prepared {
         workspace: &mut Workspace,
         motion: &PreparedMotion,
     ) -> Result<Response, SolveError> {
-        self.demands_while(workspace, motion, UNWATCHED)
+        self.demands_while(workspace, motion, NEVER_CANCELLED)
     }
 
     /// The same as long as `go_on` says so, which is asked every few milliseconds.
@@ -156,7 +156,7 @@ impl Prepared {
         &self,
         workspace: &mut Workspace,
         motion: &PreparedMotion,
-        go_on: GoOn<'_>,
+        go_on: Cancel<'_>,
     ) -> Result<Response, SolveError> {
         self.solve(InstructionSet::best(), motion, (false, go_on), workspace)
     }
@@ -170,7 +170,7 @@ impl Prepared {
         instructions: InstructionSet,
         motion: &PreparedMotion,
     ) -> Result<Response, SolveError> {
-        self.solve(instructions, motion, (false, UNWATCHED), &mut Workspace::default())
+        self.solve(instructions, motion, (false, NEVER_CANCELLED), &mut Workspace::default())
     }
 
     /// Exact response with its history.
@@ -190,14 +190,14 @@ impl Prepared {
         instructions: InstructionSet,
         motion: &PreparedMotion,
     ) -> Result<Response, SolveError> {
-        self.solve(instructions, motion, (true, UNWATCHED), &mut Workspace::default())
+        self.solve(instructions, motion, (true, NEVER_CANCELLED), &mut Workspace::default())
     }
 
     fn solve(
         &self,
         instructions: InstructionSet,
         motion: &PreparedMotion,
-        how: (bool, GoOn<'_>),
+        how: (bool, Cancel<'_>),
         workspace: &mut Workspace,
     ) -> Result<Response, SolveError> {
         let own;
@@ -217,7 +217,7 @@ pub(super) fn solve_once(
     model: &Model,
     motion: &GroundMotion,
     with_history: bool,
-    go_on: GoOn<'_>,
+    go_on: Cancel<'_>,
 ) -> Result<Response, SolveError> {
     let sampling = Sampling::new(motion);
     let tables = tables_of(model, sampling.dt_s);
@@ -234,7 +234,7 @@ fn solve(
     model: &Model,
     tables: &Tables,
     (motion, sampling): (&GroundMotion, &Sampling),
-    how: (bool, GoOn<'_>),
+    how: (bool, Cancel<'_>),
     workspace: &mut Workspace,
 ) -> Result<Response, SolveError> {
     match motion.horizontal_y_m_per_s2() {
@@ -249,7 +249,7 @@ fn solve_in_plane(
     model: &Model,
     tables: &Tables,
     (motion, sampling, y): (&GroundMotion, &Sampling, &[f64]),
-    (with_history, go_on): (bool, GoOn<'_>),
+    (with_history, go_on): (bool, Cancel<'_>),
 ) -> Result<Response, SolveError> {
     let system = tables.in_plane(model)?;
     let varying: Option<Vec<f64>> = varying_normal(model, motion).map(Iterator::collect);
@@ -293,7 +293,7 @@ fn solve_along_x(
     model: &Model,
     tables: &Tables,
     (motion, sampling): (&GroundMotion, &Sampling),
-    (with_history, go_on): (bool, GoOn<'_>),
+    (with_history, go_on): (bool, Cancel<'_>),
     workspace: &mut Workspace,
 ) -> Result<Response, SolveError> {
     if model.structure().is_some_and(|structure| structure.modes.is_empty()) {
@@ -393,7 +393,7 @@ fn stepped(
     law: &Law<'_>,
     (motion, ground): (&GroundMotion, Ground<'_>),
     instructions: InstructionSet,
-    (with_history, go_on): (bool, GoOn<'_>),
+    (with_history, go_on): (bool, Cancel<'_>),
 ) -> Result<Response, SolveError> {
     let contact_loss_s = contact_loss_s(motion.times_s(), ground.normal);
     let stepped = direct::solve(model, law, ground, instructions, (with_history, go_on))?;
@@ -502,8 +502,8 @@ impl Analysis<'_> {
         // A rigid block has one mode that does nothing.
         let modes = model.storeys().max(1);
         let phase = Modal::new((instructions, modes), (tables, law), ground, recorder, buffers);
-        let place = phase.place(0);
-        let course = Course::new(SliderState::new(law, place[0], place[1]), place, lists);
+        let place = phase.position_and_velocity(0);
+        let course = WalkState::new(SliderState::new(law, place[0], place[1]), place, lists);
         let before = [model.slope_m_per_s2(), model.normal_n()];
         let units = 32 * (1 + modes as u32);
         let mut walk = Walk::new((phase, course), (ground, before), (pulse, units));

@@ -4,7 +4,7 @@
 
 use crate::linear::polynomial::{DEGREE, Polynomial, deflated, first_root};
 use crate::response::{EventKind, StopDemands, SurfaceDemands};
-use crate::slider::{Contact, Direction, Exit, Hold, Law, Memory, Reached};
+use crate::slider::{BranchEnd, Contact, Direction, Exit, Hold, Law, Memory};
 
 /// What the block does at the stops.
 #[derive(Clone, Copy, Default)]
@@ -83,7 +83,7 @@ pub(super) struct SliderState<'a> {
     pub(super) law: &'a Law<'a>,
     pub(super) memory: Memory,
     /// What has just been reached: an exit that waits for the same starts at its zero.
-    pub(super) just: Option<Reached>,
+    pub(super) just: Option<BranchEnd>,
     pub(super) stopping: Stopping,
     pub(super) surfaces: Surfaces,
 }
@@ -149,7 +149,7 @@ impl<'a> SliderState<'a> {
     /// Follows the end of a branch; the kind of event, where it is one that is listed.
     pub(super) fn follow(
         &mut self,
-        reached: Reached,
+        reached: BranchEnd,
         direction: Direction,
         time_s: f64,
         [s, w]: [f64; 2],
@@ -157,9 +157,9 @@ impl<'a> SliderState<'a> {
         self.just = Some(reached);
         self.note_surfaces(s);
         let kind = match reached {
-            Reached::Contact(to, _) => Some(self.change_contact(time_s, w.abs(), to)),
-            Reached::Surface(_) => Some(EventKind::Surface),
-            Reached::Wall(..) | Reached::Knot(..) => None,
+            BranchEnd::Contact(to, _) => Some(self.change_contact(time_s, w.abs(), to)),
+            BranchEnd::Surface(_) => Some(EventKind::Surface),
+            BranchEnd::Wall(..) | BranchEnd::Knot(..) => None,
         };
         self.law.follow(&mut self.memory, reached, direction);
         kind
@@ -178,8 +178,8 @@ impl<'a> SliderState<'a> {
     /// The polynomial of an exit, less the zero at which it starts where the same has just been reached.
     pub(super) fn of_exit(&self, exit: &Exit, mut p: Polynomial) -> Polynomial {
         match (exit.reached, self.just) {
-            (Reached::Contact(_, None), Some(Reached::Contact(_, None))) => deflated(&p, 1),
-            (Reached::Knot(speed, _), Some(Reached::Knot(crossed, _))) if speed == crossed => {
+            (BranchEnd::Contact(_, None), Some(BranchEnd::Contact(_, None))) => deflated(&p, 1),
+            (BranchEnd::Knot(speed, _), Some(BranchEnd::Knot(crossed, _))) if speed == crossed => {
                 p[0] = 0.0;
                 match p.iter().position(|c| *c != 0.0) {
                     Some(order) => deflated(&p, order),

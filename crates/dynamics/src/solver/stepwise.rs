@@ -16,7 +16,7 @@ use crate::linear::System;
 use crate::linear::lanes::{dot, greatest};
 use crate::model::Model;
 use crate::motion::GroundMotion;
-use crate::progress::{GoOn, Pulse};
+use crate::progress::{Cancel, Pulse};
 use crate::response::output::Output;
 use crate::response::{Event, EventKind, Iterations, Method, Mode, Response};
 use crate::slider::{Contact, Direction, Law};
@@ -45,7 +45,7 @@ pub(super) fn solve(
     model: &Model,
     motion: &GroundMotion,
     tolerance_m_per_s2: f64,
-    go_on: GoOn<'_>,
+    go_on: Cancel<'_>,
 ) -> Result<Response, SolveError> {
     let law = model.law(motion.vertical_m_per_s2().is_some());
     // What jumps, what remembers, and what slides besides the block.
@@ -114,7 +114,7 @@ pub(super) fn solve(
     note(0, &step, step.mode, true);
     for sample in 1..motion.len() {
         let (next, iterations) = program.advance(&step, sample)?;
-        pulse.beat(8 * iterations * (1 + n as u32))?;
+        pulse.tick(8 * iterations * (1 + n as u32))?;
         total += u64::from(iterations);
         most = most.max(iterations);
         let time_s = program.times_s[sample];
@@ -319,7 +319,7 @@ impl Program<'_> {
 
     fn held_or_not(&self, step: &Step, sample: usize) -> Mode {
         let hold = self.law.hold(&self.law.initial(step.s, 0.0), step.s);
-        hold.gives_way(self.demand_n(step, sample), self.normal_n[sample])
+        hold.gives_way(self.required_friction_n(step, sample), self.normal_n[sample])
             .map_or(Mode::Stick, Mode::Slip)
     }
 
@@ -333,14 +333,16 @@ impl Program<'_> {
         self.law.restoring_n(self.contact(s, w), [s, w], self.normal_n[sample])
     }
 
-    fn demand_n(&self, step: &Step, sample: usize) -> f64 {
+    fn required_friction_n(&self, step: &Step, sample: usize) -> f64 {
         self.system.block_mass_kg * self.acceleration[sample]
             + self.restoring_n(step.s, 0.0, sample)
             - dot(&self.system.participation, &step.f)
     }
 
     fn friction_n(&self, step: &Step, sample: usize) -> f64 {
-        let Mode::Slip(direction) = step.mode else { return self.demand_n(step, sample) };
+        let Mode::Slip(direction) = step.mode else {
+            return self.required_friction_n(step, sample);
+        };
         -direction.sign() * self.law.kinetic_n(direction, step.w.abs(), self.normal_n[sample])
     }
 

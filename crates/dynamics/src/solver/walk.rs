@@ -8,9 +8,9 @@ mod decide;
 mod impact;
 mod straight;
 
-use super::course::Course;
+use super::course::WalkState;
 use super::ground::{Ground, Stretch};
-use super::phase::{Phase, Reached as Ahead, Straight};
+use super::phase::{Advance as Ahead, LinePhase, Phase};
 use super::summary::Outcome;
 use crate::error::SolveError;
 use crate::progress::Pulse;
@@ -21,7 +21,7 @@ pub const EVENTS_PER_INTERVAL_LIMIT: u32 = 1_000_000;
 
 /// A way through a motion.
 pub(super) struct Walk<'a, P: ?Sized> {
-    pub(super) course: Course<'a>,
+    pub(super) course: WalkState<'a>,
     pub(super) ground: Ground<'a>,
     /// Asks whether to go on, after so many units of work a segment.
     pub(super) pulse: Pulse<'a>,
@@ -33,8 +33,8 @@ pub(super) struct Walk<'a, P: ?Sized> {
     /// Factor on what of a decision is taken for rounding.
     doubt: f64,
     /// What friction takes of a push against a rigid stop has just become all of it, or too little.
-    leant: bool,
-    leans_since_s: Option<f64>,
+    bearing_changed: bool,
+    bears_on_stop_since_s: Option<f64>,
     /// The last turn since the last impact.
     turn: Option<usize>,
     first_impact_s: Option<f64>,
@@ -42,7 +42,7 @@ pub(super) struct Walk<'a, P: ?Sized> {
 }
 
 /// A walk in one direction, for what is done now and then: it is compiled once for all phases.
-type Line<'a> = Walk<'a, dyn Straight<'a> + 'a>;
+type Line<'a> = Walk<'a, dyn LinePhase<'a> + 'a>;
 
 /// What happens on the way: in one direction, or in two.
 pub(super) trait Events {
@@ -53,7 +53,7 @@ pub(super) trait Events {
     fn segment(&mut self, stretch: &Stretch, at_s: f64) -> Result<f64, SolveError>;
 
     /// Whether something waits to be decided.
-    fn is_due(&self) -> bool;
+    fn has_pending_decision(&self) -> bool;
 
     /// Decides all that is due at an instant; whether something was.
     fn decide(&mut self, stretch: &Stretch, at_s: f64, at_sample: bool) -> bool;
@@ -73,7 +73,7 @@ pub(super) trait Events {
     }
 
     /// Looks at the outputs under loads that stand.
-    fn look_beside_jump(&mut self, stretch: &Stretch);
+    fn peaks_at_jump(&mut self, stretch: &Stretch);
 
     /// Begins what lasts from the start.
     fn begin(&mut self) {}
@@ -87,7 +87,7 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
     /// `units` of work.
     #[inline(always)]
     pub(super) fn new(
-        (phase, course): (P, Course<'a>),
+        (phase, course): (P, WalkState<'a>),
         (ground, before): (Ground<'a>, [f64; 2]),
         (pulse, units): (Pulse<'a>, u32),
     ) -> Self {
@@ -99,13 +99,13 @@ impl<'a, P: Phase<'a>> Walk<'a, P> {
             before,
             walks_jump: false,
             doubt: 1.0,
-            leant: false,
-            leans_since_s: None,
+            bearing_changed: false,
+            bears_on_stop_since_s: None,
             turn: None,
             first_impact_s: None,
             phase,
         };
-        walk.phase.enter(&walk.course);
+        walk.phase.update_branch(&walk.course);
         walk
     }
 }
@@ -124,7 +124,7 @@ where
         self.walk_jump(0, self.before, self.loads_at(0))?;
         if let Some(stretch) = self.ground.before_first_jump() {
             self.decide(&stretch, 0.0, true);
-            self.look_beside_jump(&stretch);
+            self.peaks_at_jump(&stretch);
             self.clear_starts();
         }
         let mut sample = 0;
@@ -133,7 +133,7 @@ where
             if times_s[sample + 1] > times_s[sample] {
                 let end = self.ground.sampling.regular_end(sample, last);
                 Ahead { sample, at_s: from_s } = P::run_ahead(self, [sample, end])?;
-                self.pulse.beat(1)?;
+                self.pulse.tick(1)?;
             }
             if sample == last {
                 break;
@@ -173,7 +173,7 @@ where
     fn finish(&mut self, last: usize) -> Result<(), SolveError> {
         let end_s = self.ground.times_s[last];
         self.must_be_finite(end_s)?;
-        if self.is_due() {
+        if self.has_pending_decision() {
             // A decision at the very end is made by the limit from the left.
             let interval = (0..last).rev().find(|&i| self.ground.times_s[i] < end_s);
             if let Some(interval) = interval {
@@ -185,11 +185,11 @@ where
         if let Some(stretch) = self.ground.after_last_jump() {
             self.walk_jump(last, self.loads_at(last - 1), self.loads_at(last))?;
             self.decide(&stretch, 0.0, true);
-            self.look_beside_jump(&stretch);
+            self.peaks_at_jump(&stretch);
         }
         self.record_sample(last);
         for i in 0..self.course.interfaces() {
-            let [place_m, _] = self.phase.place(i);
+            let [place_m, _] = self.phase.position_and_velocity(i);
             let interface = self.course.interface_mut(i);
             if interface.mode != Mode::Stick {
                 interface.sliding.end(end_s, place_m);
@@ -199,7 +199,7 @@ where
         if slider.law.has_pads() {
             slider.stopping.change(end_s, 0.0, slider.memory.contact, Contact::Free);
         }
-        self.course.slider.note_surfaces(self.phase.place(0)[0]);
+        self.course.slider.note_surfaces(self.phase.position_and_velocity(0)[0]);
         self.end(end_s);
         P::settle(self);
         Ok(())
@@ -225,7 +225,7 @@ where
             if at_s >= stretch.to_s {
                 return Ok(());
             }
-            self.pulse.beat(self.units)?;
+            self.pulse.tick(self.units)?;
             at_s = self.segment(stretch, at_s)?;
             // At a sample the limit from the right decides.
             if at_s >= stretch.to_s {
@@ -248,7 +248,7 @@ impl<'a, P: Phase<'a> + ?Sized> Walk<'a, P> {
             sliding: course.block.sliding,
             stop: slider.law.has_stop().then_some(stop),
             surfaces: slider.surfaces.demands(),
-            residual_m: self.phase.place(0)[0],
+            residual_m: self.phase.position_and_velocity(0)[0],
             sliding_at_end: course.block.mode != Mode::Stick,
             first_impact_s: self.first_impact_s,
         }
@@ -271,7 +271,7 @@ impl<'a, P: Phase<'a> + ?Sized> Walk<'a, P> {
 
     #[inline(always)]
     fn must_be_finite(&self, time_s: f64) -> Result<(), SolveError> {
-        let [s, w] = self.phase.place(0);
+        let [s, w] = self.phase.position_and_velocity(0);
         if !(s.is_finite() && w.is_finite()) {
             return Err(SolveError::NotFinite { time_s });
         }
@@ -281,7 +281,7 @@ impl<'a, P: Phase<'a> + ?Sized> Walk<'a, P> {
     /// Notes surfaces at their ends; an error where none can slide on.
     #[inline(always)]
     fn note_ends(&mut self, time_s: f64) -> Result<(), SolveError> {
-        self.course.slider.note_surfaces(self.phase.place(0)[0]);
+        self.course.slider.note_surfaces(self.phase.position_and_velocity(0)[0]);
         if self.course.block.mode != Mode::Stick && self.course.slider.at_end() {
             let travel_m = self.course.slider.law.travel_m();
             return Err(SolveError::EndOfTravel { time_s, travel_m });

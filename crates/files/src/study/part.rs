@@ -7,7 +7,7 @@ use slipstick::study::{Certified, Verdict, Worst, worse};
 use slipstick::table::{Cells, Field};
 
 use crate::error::FileError;
-use crate::parquet::{Table, TableWriter};
+use crate::parquet::{ParquetTable, TableWriter};
 use ::parquet::errors::ParquetError;
 
 use super::seal::{SEAL_KEY, blank, seal};
@@ -148,7 +148,7 @@ impl Notes {
     ///
     /// # Errors
     /// [`FileError::Table`] for a file without them.
-    pub(super) fn of(table: &Table) -> Result<Self, FileError> {
+    pub(super) fn of(table: &ParquetTable) -> Result<Self, FileError> {
         let missing = |key: &str| FileError::Table {
             path: table.path.clone(),
             reason: format!("it has no {key} and is no part of a study"),
@@ -176,7 +176,7 @@ impl Notes {
 }
 
 /// The worst row that a file names; none where an older version wrote it.
-fn worst_of(table: &Table) -> Option<Worst> {
+fn worst_of(table: &ParquetTable) -> Option<Worst> {
     let [run, what, error] = WORST_KEYS.map(|key| table.note(key));
     Some(Worst { run: run?.to_owned(), what: what?.to_owned(), error: error?.parse().ok()? })
 }
@@ -208,7 +208,7 @@ pub(super) fn sealed(
 /// A file of a study that is known by its notes.
 #[derive(Clone, Debug)]
 pub(super) struct PartFile {
-    pub table: Table,
+    pub table: ParquetTable,
     pub notes: Notes,
     /// SHA-256 of the file.
     pub sha256: String,
@@ -240,7 +240,7 @@ mod tests {
             let fields = [Field { kind: Kind::Count, ..Field::text("run") }];
             let cells = [Cells::Counts((0..500).map(Some).collect())];
             std::fs::write(&path, sealed(&fields, &notes, &cells).unwrap()).unwrap();
-            let read = Notes::of(&Table::of(&path).unwrap());
+            let read = Notes::of(&ParquetTable::of(&path).unwrap());
             std::fs::remove_file(&path).unwrap();
             assert_eq!(read.unwrap(), notes);
         }

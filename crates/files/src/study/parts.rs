@@ -11,7 +11,7 @@ use super::StudyError;
 use super::part::{Notes, PartFile, part_count, part_name, part_of_name, rows_of};
 use super::seal::is_sealed;
 use crate::error::FileError;
-use crate::parquet::Table;
+use crate::parquet::ParquetTable;
 use crate::read::read_bytes;
 
 /// The folder of the parts. Nothing else stands in it, so that any reader takes it as one table; a
@@ -213,7 +213,7 @@ fn judge(path: &Path, part: u64) -> Result<Result<PartFile, String>, FileError> 
     if !is_sealed(bytes) {
         return Ok(Err("damaged: its bytes are not those that were written".to_owned()));
     }
-    let table = Table::of(path)?;
+    let table = ParquetTable::of(path)?;
     let notes = Notes::of(&table)?;
     let (held, own) = (notes.first..notes.first + notes.rows, rows_of(part, notes.runs));
     if part < part_count(notes.runs) && held != own {

@@ -10,7 +10,7 @@ use super::part::{MEASURE_KEY, Notes, part_of_name};
 use super::parts::MANIFEST;
 use crate::error::FileError;
 use crate::globs::expand;
-use crate::parquet::Table;
+use crate::parquet::ParquetTable;
 use crate::read::read_bytes;
 use crate::table::{ReadTable, read_table};
 
@@ -58,7 +58,7 @@ pub fn read_runs(files: &[PathBuf]) -> Result<ReadTable, FileError> {
 fn certified(files: &[PathBuf]) -> Option<Certified> {
     let mut all = Certified::default();
     for file in files {
-        let notes = Notes::of(&Table::of(file).ok()?).ok()?;
+        let notes = Notes::of(&ParquetTable::of(file).ok()?).ok()?;
         all.join(notes.checks.certified(notes.rows));
     }
     Some(all)
@@ -67,7 +67,8 @@ fn certified(files: &[PathBuf]) -> Option<Certified> {
 /// What the records of a study were scaled to: from the file itself, else from the manifest that stands beside the
 /// folder of a part.
 pub(super) fn measure_of_levels(part: &Path) -> Option<String> {
-    let own = Table::of(part).ok().and_then(|file| file.note(MEASURE_KEY).map(str::to_owned));
+    let own =
+        ParquetTable::of(part).ok().and_then(|file| file.note(MEASURE_KEY).map(str::to_owned));
     if own.is_some() {
         return own;
     }

@@ -5,7 +5,7 @@ use crate::{
 };
 
 use slipstick_report::number::compact;
-use slipstick_report::plot::{Axis, Figure, Layout, Limit, Panel, Series, Shape, Style};
+use slipstick_report::plot::{Axis, Figure, Layout, Limit, Panel, PlotSeries, Shape, Style};
 
 /// Lines that differ by colour, width and dashes.
 const LINES: [Style; 5] = [
@@ -16,20 +16,20 @@ const LINES: [Style; 5] = [
     Style { colour: "#8c8c8c", width: 1.2, dashes: "" },
 ];
 
-fn line(label: &str, number: usize, points: Vec<[f64; 2]>) -> Series {
+fn line(label: &str, number: usize, points: Vec<[f64; 2]>) -> PlotSeries {
     let style = LINES[number % LINES.len()];
-    Series { label: label.to_owned(), style, shape: Shape::History, points }
+    PlotSeries { label: label.to_owned(), style, shape: Shape::History, points }
 }
 
 fn limit(value: f64) -> Limit {
     Limit { value, label: String::new(), style: Style::LIMIT }
 }
 
-pub fn values(series: &[Series]) -> impl Iterator<Item = f64> {
+pub fn values(series: &[PlotSeries]) -> impl Iterator<Item = f64> {
     series.iter().flat_map(|s| s.points.iter().map(|p| p[1]))
 }
 
-pub fn panel(x: Axis, y: Axis, height: f64, series: Vec<Series>, limits: Vec<Limit>) -> Panel {
+pub fn panel(x: Axis, y: Axis, height: f64, series: Vec<PlotSeries>, limits: Vec<Limit>) -> Panel {
     Panel { x, y, height, series, limits, peak: None, note: String::new() }
 }
 
@@ -123,7 +123,7 @@ fn window(id: &'static str, of_mock_up: &[Window]) -> Figure {
         ("Sliding over fixed block, steady", |p| p.steady_over_fixed),
     ];
     let panels = ratios.into_iter().enumerate().map(|(row, (label, ratio))| {
-        let mut series: Vec<Series> = DRAWN
+        let mut series: Vec<PlotSeries> = DRAWN
             .iter()
             .enumerate()
             .filter_map(|(i, amplitude)| {
@@ -141,7 +141,7 @@ fn window(id: &'static str, of_mock_up: &[Window]) -> Figure {
             let style = if name == "f2" { Style::DOTTED } else { Style::DASHED };
             let label = if row == 0 { name.to_owned() } else { String::new() };
             let points = vec![[frequency_hz, low], [frequency_hz, high]];
-            series.push(Series { label, style, shape: Shape::Curve, points });
+            series.push(PlotSeries { label, style, shape: Shape::Curve, points });
         }
         let [from_hz, to_hz] = SCANNED_HZ;
         let x = Axis::logarithmic("Frequency of the table (Hz)", from_hz, to_hz);
@@ -203,7 +203,7 @@ fn suite(paper: &Paper) -> Figure {
         rows.iter().map(|r| [r.friction_over_pga, 1e3 * r.peak_m]).collect()
     };
     let each = records.iter().enumerate();
-    let mut series: Vec<Series> = each
+    let mut series: Vec<PlotSeries> = each
         .map(|(i, rows)| match many {
             true => line("", LINES.len() - 1, points(rows)),
             false => line(stem(&rows[0].record), i, points(rows)),

@@ -4,7 +4,7 @@ use super::graphs::{self, panel};
 use crate::DrawnTest;
 use slipstick::response::{History, Response};
 
-use slipstick_report::plot::{Axis, Figure, Layout, Panel, Series, Shape, Style};
+use slipstick_report::plot::{Axis, Figure, Layout, Panel, PlotSeries, Shape, Style};
 
 /// The table: grey and thin, below the others.
 const TABLE: Style = Style { colour: "#9a9a9a", width: 1.0, dashes: "" };
@@ -74,11 +74,11 @@ fn points(
 }
 
 /// Exact and, where there is one, stepwise.
-fn responses(test: &DrawnTest, value: impl Fn(&History, usize) -> f64 + Copy) -> Vec<Series> {
+fn responses(test: &DrawnTest, value: impl Fn(&History, usize) -> f64 + Copy) -> Vec<PlotSeries> {
     let line = |response: &Response, label: &str, style: Style| {
         let history = response.history.as_ref()?;
         let points = points(test, history, value);
-        Some(Series { label: label.to_owned(), style, shape: Shape::History, points })
+        Some(PlotSeries { label: label.to_owned(), style, shape: Shape::History, points })
     };
     let stepwise = test.stepwise.as_ref().and_then(|r| line(r, "stepwise", STEPWISE));
     line(&test.exact, "exact", EXACT).into_iter().chain(stepwise).collect()
@@ -93,7 +93,7 @@ fn accelerations(
     if let Some(history) = &test.exact.history {
         let points = points(test, history, |h, i| h.table_acceleration_m_per_s2[i]);
         let label = "table".to_owned();
-        series.push(Series { label, style: TABLE, shape: Shape::History, points });
+        series.push(PlotSeries { label, style: TABLE, shape: Shape::History, points });
     }
     series.extend(responses(test, value));
     over_time(test, label, series, Axis::symmetric)
@@ -110,7 +110,7 @@ fn displacement(
 fn over_time(
     test: &DrawnTest,
     label: &str,
-    series: Vec<Series>,
+    series: Vec<PlotSeries>,
     axis: fn(String, Vec<f64>) -> Axis,
 ) -> Panel {
     let values = graphs::values(&series).chain([0.0]).collect();

@@ -1,7 +1,7 @@
 //! All columns of a table as they stand, whatever they measure.
 
 use super::header::{Header, Name};
-use super::table::Table;
+use super::table::TextTable;
 use crate::text::Text;
 use slipstick_dynamics::error::{RecordError, listed};
 use slipstick_dynamics::motion::MAX_SAMPLES;
@@ -98,7 +98,7 @@ impl Columns {
 /// As for a record of delimited text; also for a row that is short, and for fewer than two rows.
 pub(crate) fn read(text: &Text) -> Result<Columns, RecordError> {
     let header = Header::of(text)?;
-    let table = Table::read(text, &header)?;
+    let table = TextTable::read(text, &header)?;
     if !table.is_full() {
         let short = table.cells.len() % table.columns;
         let expected = format!("{} numbers, as in the rows before", table.columns);

@@ -1,7 +1,7 @@
 //! What stands before the numbers: comments, text, names of the columns with their units.
 
 use super::style::Separator;
-use super::table::Table;
+use super::table::TextTable;
 use crate::text::{Line, Text, number};
 use crate::unit::{Units, seconds};
 use slipstick_dynamics::error::RecordError;
@@ -159,7 +159,7 @@ impl<'a> Header<'a> {
     ///
     /// # Errors
     /// Where a line of text is divided as the numbers are, but has another count.
-    pub fn names(&self, text: &Text, table: &Table) -> Result<Option<Vec<Name>>, RecordError> {
+    pub fn names(&self, text: &Text, table: &TextTable) -> Result<Option<Vec<Name>>, RecordError> {
         let (separator, columns) = (table.style.separator, table.columns);
         let Some(line) = &self.last else { return Ok(None) };
         if let Some(names) = self.with_units(text, separator, columns)? {

@@ -2,7 +2,7 @@
 
 use super::clock;
 use super::header::{Header, Name, Unit};
-use super::table::Table;
+use super::table::TextTable;
 use crate::sampling;
 use crate::text::Text;
 use slipstick_dynamics::error::RecordError;
@@ -38,7 +38,7 @@ const LARGE_TIME: f64 = 1e5;
 pub(super) fn of(
     text: &Text,
     header: &Header,
-    table: &Table,
+    table: &TextTable,
     given_s: Option<f64>,
 ) -> Result<Layout, RecordError> {
     let names = header.names(text, table)?;
@@ -114,7 +114,7 @@ pub(super) fn of(
 
 /// Whether names are those of a spectrum: periods or frequencies first, or spectral ordinates that are
 /// nowhere below 0, as those of no motion are.
-fn is_spectrum(names: &[Name], table: &Table) -> bool {
+fn is_spectrum(names: &[Name], table: &TextTable) -> bool {
     let ordinate = |column: usize| {
         names[column].is_ordinate() && table.column(column).all(|value| value >= 0.0)
     };
@@ -126,7 +126,7 @@ fn is_spectrum(names: &[Name], table: &Table) -> bool {
 
 /// The first column, where it numbers the rows: it counts by one and is not called time, or is called
 /// by a word for numbers of samples and holds whole numbers that increase.
-fn index_column(names: Option<&[Name]>, table: &Table) -> Option<usize> {
+fn index_column(names: Option<&[Name]>, table: &TextTable) -> Option<usize> {
     let name = names.and_then(|names| names.first());
     let is_named = name.is_some_and(|name| name.is_time() || name.unit.is_some());
     if is_named || table.columns < 2 {
@@ -140,7 +140,7 @@ fn index_column(names: Option<&[Name]>, table: &Table) -> Option<usize> {
 
 /// Whether a column goes forwards in most steps and back in few: times, perhaps with a fault
 /// in them, and no motion, which goes down as often as up.
-fn mostly_increases(table: &Table, column: usize) -> bool {
+fn mostly_increases(table: &TextTable, column: usize) -> bool {
     let first = table.column(column);
     let (mut forwards, mut backwards, mut steps) = (0, 0, 0);
     for (after, before) in first.clone().skip(1).zip(first) {
@@ -151,7 +151,7 @@ fn mostly_increases(table: &Table, column: usize) -> bool {
     2 * forwards >= steps && 4 * backwards <= steps
 }
 
-fn first_decrease(table: &Table) -> Option<usize> {
+fn first_decrease(table: &TextTable) -> Option<usize> {
     let first = table.column(0);
     let at = first.clone().skip(1).zip(first).position(|(after, before)| after <= before);
     at.map(|row| row + 1)
@@ -159,7 +159,7 @@ fn first_decrease(table: &Table) -> Option<usize> {
 
 /// Whether neighbours in a column are closer than neighbours on a line, which in one series sampled
 /// finely enough are the closest of all.
-fn looks_like_components(table: &Table) -> bool {
+fn looks_like_components(table: &TextTable) -> bool {
     let mean = |lag: usize| -> f64 {
         let later = table.cells.iter().skip(lag);
         let sum: f64 = later.zip(&table.cells).map(|(b, a)| (b - a).abs()).sum();
@@ -171,7 +171,7 @@ fn looks_like_components(table: &Table) -> bool {
 /// A column of times.
 struct Clock<'a, 'b> {
     text: &'a Text<'b>,
-    table: &'a Table,
+    table: &'a TextTable,
     column: usize,
     /// Whether the time step is known besides.
     is_given: bool,

@@ -10,7 +10,7 @@ use slipstick_dynamics::error::RecordError;
 use slipstick_dynamics::motion::MAX_SAMPLES;
 
 /// All numbers of a file.
-pub(super) struct Table {
+pub(super) struct TextTable {
     /// How they are written.
     pub style: Style,
     /// Numbers a row.
@@ -33,7 +33,7 @@ struct CountLine {
     number: usize,
 }
 
-impl Table {
+impl TextTable {
     /// Reads the numbers after a header.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! A spectrum as offices have it: a table of periods and spectral accelerations.
 
 use super::header::{Header, Name, Unit};
-use super::table::Table;
+use super::table::TextTable;
 use crate::text::Text;
 use slipstick_dynamics::error::RecordError;
 use slipstick_dynamics::motion::Quantity;
@@ -11,7 +11,7 @@ use slipstick_dynamics::motion::target::TargetSpectrum;
 /// `Sa`, `Sae` or `PSA`, whose unit must stand with the name, in any brackets.
 pub(crate) fn read(text: &Text) -> Result<TargetSpectrum, RecordError> {
     let header = Header::of(text)?;
-    let table = Table::read(text, &header)?;
+    let table = TextTable::read(text, &header)?;
     let names = header.names(text, &table)?.unwrap_or_default();
     let found = || match names.is_empty() {
         true => "no names of columns".to_owned(),

@@ -19,7 +19,7 @@ use super::sheet::{Sheet, cell, counted, counted_as, failed};
 use crate::display::{DisplayUnits, Unit};
 use crate::figures::Drawn;
 use crate::json::{each, pretty};
-use crate::plot::{Axis, Series, Style};
+use crate::plot::{Axis, PlotSeries, Style};
 use crate::view;
 
 /// What an incremental dynamic analysis is told from.
@@ -325,7 +325,7 @@ impl IdaReport<'_> {
             let points = known.map(|(level, demand)| [edp.of(demand.value()), im.of(*level)]);
             std::iter::once([0.0, 0.0]).chain(points).collect()
         };
-        let mut series: Vec<Series> = Vec::new();
+        let mut series: Vec<PlotSeries> = Vec::new();
         for (i, curve) in self.curves.iter().enumerate() {
             let label = if i == 0 { "record" } else { "" };
             series.push(line(label, RECORD, clipped(&of_curve(curve), ends)));

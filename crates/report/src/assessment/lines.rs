@@ -3,7 +3,7 @@
 use slipstick::assessment::SHARES;
 
 use crate::figures::Drawn;
-use crate::plot::{Axis, Figure, Layout, Panel, Series, Shape, Style};
+use crate::plot::{Axis, Figure, Layout, Panel, PlotSeries, Shape, Style};
 
 /// Styles of groups: they differ by dash and width, not only by colour.
 pub const GROUPS: [Style; 6] = [
@@ -35,13 +35,13 @@ pub fn share_names() -> [String; 3] {
     )
 }
 
-pub fn line(label: impl Into<String>, style: Style, points: Vec<[f64; 2]>) -> Series {
-    Series { label: label.into(), style, shape: Shape::Curve, points }
+pub fn line(label: impl Into<String>, style: Style, points: Vec<[f64; 2]>) -> PlotSeries {
+    PlotSeries { label: label.into(), style, shape: Shape::Curve, points }
 }
 
 /// A quantity over x, which does not decrease.
-pub fn over_x(label: impl Into<String>, style: Style, points: Vec<[f64; 2]>) -> Series {
-    Series { label: label.into(), style, shape: Shape::History, points }
+pub fn over_x(label: impl Into<String>, style: Style, points: Vec<[f64; 2]>) -> PlotSeries {
+    PlotSeries { label: label.into(), style, shape: Shape::History, points }
 }
 
 /// Separate points, filled in a colour.
@@ -50,8 +50,8 @@ pub fn dots(
     style: Style,
     fill: &'static str,
     points: Vec<[f64; 2]>,
-) -> Series {
-    Series { label: label.into(), style, shape: Shape::Dots(fill), points }
+) -> PlotSeries {
+    PlotSeries { label: label.into(), style, shape: Shape::Dots(fill), points }
 }
 
 /// Points along lower and back along upper values, where both are finite.
@@ -61,13 +61,13 @@ pub fn band(
     high: &[f64],
     label: impl Into<String>,
     fill: &'static str,
-) -> Series {
+) -> PlotSeries {
     let both = |i: &usize| low[*i].is_finite() && high[*i].is_finite();
     let kept: Vec<usize> = (0..x.len()).filter(both).collect();
     let lower = kept.iter().map(|&i| [x[i], low[i]]);
     let upper = kept.iter().rev().map(|&i| [x[i], high[i]]);
     let points = lower.chain(upper).collect();
-    Series { label: label.into(), style: Style::MAIN, shape: Shape::Band(fill), points }
+    PlotSeries { label: label.into(), style: Style::MAIN, shape: Shape::Band(fill), points }
 }
 
 /// A curve cut off where x or y passes the end of its axis, at the axis itself; what is not finite
@@ -121,6 +121,6 @@ pub fn laid(
 }
 
 /// A panel without limits or notes.
-pub fn panel(x: Axis, y: Axis, height: f64, series: Vec<Series>) -> Panel {
+pub fn panel(x: Axis, y: Axis, height: f64, series: Vec<PlotSeries>) -> Panel {
     Panel { x, y, height, series, limits: Vec::new(), peak: None, note: String::new() }
 }

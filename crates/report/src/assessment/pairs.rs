@@ -7,7 +7,7 @@ use super::lines::{FRACTILES, RECORD, line, panel, stacked};
 use super::sheet::cell;
 use crate::figures::Drawn;
 use crate::markup::shortened;
-use crate::plot::{Axis, Limit, Series, Style};
+use crate::plot::{Axis, Limit, PlotSeries, Style};
 
 /// The spectra of pairs as they were scaled, beside the target.
 pub(crate) fn figure(matched: &Matched) -> Drawn {
@@ -15,7 +15,7 @@ pub(crate) fn figure(matched: &Matched) -> Drawn {
     let points = |values: &[f64], factor: f64| -> Vec<[f64; 2]> {
         matched.periods_s.iter().zip(values).map(|(t, sa)| [*t, factor * sa / g]).collect()
     };
-    let mut series: Vec<Series> = Vec::new();
+    let mut series: Vec<PlotSeries> = Vec::new();
     for pair in &matched.pairs_m_per_s2 {
         let label = if series.is_empty() { "pair" } else { "" };
         series.push(line(label, RECORD, points(pair, 1.0)));

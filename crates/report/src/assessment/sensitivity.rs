@@ -12,7 +12,7 @@ use crate::display::DisplayUnits;
 use crate::figures::Drawn;
 use crate::json::{each, pretty};
 use crate::number::{compact, significant};
-use crate::plot::{Axis, Figure, Layout, Series, Shape, Style};
+use crate::plot::{Axis, Figure, Layout, PlotSeries, Shape, Style};
 use crate::view;
 
 /// Demands that are drawn and told first, where they are among those asked for.
@@ -224,7 +224,12 @@ impl SensitivityReport<'_> {
             let (low, high) = (i as f64 + 0.68, i as f64 + 1.32);
             let fill = BARS[usize::from(*change < 0.0)];
             let points = vec![[0.0, low], [*change, low], [*change, high], [0.0, high]];
-            Series { label: String::new(), style: Style::MAIN, shape: Shape::Band(fill), points }
+            PlotSeries {
+                label: String::new(),
+                style: Style::MAIN,
+                shape: Shape::Band(fill),
+                points,
+            }
         };
         let changes = ranked.iter().map(|(_, change, _)| *change);
         let x = Axis::symmetric(format!("{what}: change in % for 1 % of the key"), changes);

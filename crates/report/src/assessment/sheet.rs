@@ -21,7 +21,7 @@ use crate::summary::keys::{certified_keys, listed, suite};
 use crate::view;
 
 /// A heading and a table: the first row are heads, the first column names.
-pub type Table = (String, Vec<Vec<String>>);
+pub type SheetTable = (String, Vec<Vec<String>>);
 
 /// A result as people and programs read it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -51,9 +51,9 @@ pub struct Sheet {
     /// Whether the answer must not be used.
     pub failed: bool,
     /// The tables, the one that answers first.
-    pub tables: Vec<Table>,
+    pub tables: Vec<SheetTable>,
     /// Names and values that the page alone shows, at its end; without heads.
-    pub appendix: Vec<Table>,
+    pub appendix: Vec<SheetTable>,
     /// Keys of a model, with what stands over them.
     pub keys: Option<(&'static str, String)>,
     /// Sentences below the tables.
@@ -268,7 +268,7 @@ pub(crate) fn record_table(records: &[Recorded]) -> Option<Vec<Vec<String>>> {
     (!records.is_empty()).then(|| core::iter::once(heads).chain(rows).collect())
 }
 
-fn table_list(out: &mut Markup, tables: &[Table]) {
+fn table_list(out: &mut Markup, tables: &[SheetTable]) {
     for (heading, rows) in tables {
         out.element("h3", heading).raw("\n");
         number_table(out, rows);

@@ -11,7 +11,7 @@ use super::sheet::{Sheet, cell, counted_as, failed};
 use crate::display::{DisplayUnits, Unit};
 use crate::json::{each, pretty};
 use crate::number::compact;
-use crate::plot::{Axis, Limit, Panel, Series, Style};
+use crate::plot::{Axis, Limit, Panel, PlotSeries, Style};
 use crate::view;
 
 /// What a spectrum is told from.
@@ -231,7 +231,7 @@ impl<'s> SpectrumReport<'s> {
             x.iter().zip(values).map(|(&x, &y)| [x, y]).collect()
         };
         let (many, single) = (self.groups().len() > 1, self.records.len() == 1);
-        let mut series: Vec<Series> = Vec::new();
+        let mut series: Vec<PlotSeries> = Vec::new();
         if !single && !many {
             series.push(band(x, &of(0, 0), &of(0, 2), "16 to 84 %", BAND));
             // Of a long suite the curves of single records would be a grey field.

@@ -4,7 +4,7 @@ use super::{Drawn, Scene};
 use crate::assessment::lines::{over_x, panel, single};
 use crate::display::Quantity;
 use crate::number::printed;
-use crate::plot::{Axis, Series, Shape, Style};
+use crate::plot::{Axis, PlotSeries, Shape, Style};
 
 /// Energy by kind, stacked up to the input; none where the certificate has no energies.
 pub fn by_kind(scene: &Scene) -> Option<Drawn> {
@@ -24,12 +24,12 @@ pub fn by_kind(scene: &Scene) -> Option<Drawn> {
         ("kinetic", "#faf6ec"),
     ];
     // The highest edge first, so that each area covers the foot of the one before it.
-    let mut series: Vec<Series> = (0..kinds.len())
+    let mut series: Vec<PlotSeries> = (0..kinds.len())
         .rev()
         .map(|last| {
             let points = scene.over_time(unit, |knot| kinds[..=last].iter().map(|k| k[knot]).sum());
             let (label, fill) = names[last];
-            Series { label: label.to_owned(), style: edge, shape: Shape::Area(fill), points }
+            PlotSeries { label: label.to_owned(), style: edge, shape: Shape::Area(fill), points }
         })
         .collect();
     let input = scene.over_time(unit, |knot| energy.input_j[knot]);

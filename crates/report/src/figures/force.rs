@@ -8,7 +8,7 @@ use super::{Drawn, Scene};
 use crate::assessment::lines::{laid, line, over_x, panel};
 use crate::display::Quantity;
 use crate::number::printed;
-use crate::plot::{Axis, Figure, Layout, Limit, Panel, Series, Style};
+use crate::plot::{Axis, Figure, Layout, Limit, Panel, PlotSeries, Style};
 
 /// An axis of forces ends at this many times the largest force without a stop's.
 const ABOVE_THE_LOOP: f64 = 3.0;
@@ -88,7 +88,7 @@ pub fn loops(scene: &Scene) -> Drawn {
 }
 
 /// Pieces of the loop in which the block presses against a stop.
-fn at_stop(history: &History, points: &[[f64; 2]]) -> Vec<Series> {
+fn at_stop(history: &History, points: &[[f64; 2]]) -> Vec<PlotSeries> {
     let pressed = |knot: &usize| matches!(history.contact[*knot], Contact::Pressed(_));
     let knots: Vec<usize> = (0..history.contact.len()).filter(pressed).collect();
     let stretches = knots.chunk_by(|a, b| a + 1 == *b).filter(|stretch| stretch.len() > 1);
@@ -99,7 +99,7 @@ fn at_stop(history: &History, points: &[[f64; 2]]) -> Vec<Series> {
             stretch.iter().map(|&knot| points[knot]).collect(),
         )
     };
-    let mut pieces: Vec<Series> = stretches.map(piece).collect();
+    let mut pieces: Vec<PlotSeries> = stretches.map(piece).collect();
     if let Some(first) = pieces.first_mut() {
         first.label = "against the stop".to_owned();
     }

@@ -8,7 +8,7 @@ use crate::assessment::lines::{over_x, panel};
 use crate::display::{Quantity, Unit};
 use crate::markup::shortened;
 use crate::number::{compact, printed};
-use crate::plot::{Axis, Figure, Layout, Limit, Panel, Series, Style};
+use crate::plot::{Axis, Figure, Layout, Limit, Panel, PlotSeries, Style};
 
 /// Five of them stand on a printed page together with the sliding displacement.
 const HISTORY_HEIGHT: f64 = 78.0;
@@ -84,7 +84,7 @@ fn sliding_trace(scene: &Scene, unit: Unit) -> Trace {
     Trace::new(points, extremes.map(|value| unit.of(value)))
 }
 
-fn bound_series(scene: &Scene, unit: Unit) -> Vec<Series> {
+fn bound_series(scene: &Scene, unit: Unit) -> Vec<PlotSeries> {
     let Some(responses) = scene.report.bounds else { return Vec::new() };
     let named = [("lower friction", Style::WIDE), ("upper friction", Style::DASHED)];
     named

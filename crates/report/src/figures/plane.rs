@@ -11,7 +11,7 @@ use crate::assessment::lines::{laid, line, panel};
 use crate::display::{Quantity, Unit};
 use crate::markup::shortened;
 use crate::number::{compact, printed};
-use crate::plot::{Axis, Layout, Limit, Panel, Series, Shape, Style};
+use crate::plot::{Axis, Layout, Limit, Panel, PlotSeries, Shape, Style};
 
 const AXES: [&str; 2] = ["x", "y"];
 
@@ -118,9 +118,9 @@ fn orbit(label: &str, unit: Unit, vector: Vector, circles: &[(&str, Style, f64)]
                 .collect(),
         )
     };
-    let mut series: Vec<Series> = circles.iter().map(circle).collect();
+    let mut series: Vec<PlotSeries> = circles.iter().map(circle).collect();
     let (style, shape) = (Style::MAIN, Shape::Curve);
-    series.push(Series { label: String::new(), style, shape, points });
+    series.push(PlotSeries { label: String::new(), style, shape, points });
     panel(axis("x"), axis("y"), 0.0, series)
 }
 

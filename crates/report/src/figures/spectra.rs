@@ -5,7 +5,7 @@ use crate::assessment::lines::{over_x, panel, single};
 use crate::display::Quantity;
 use crate::markup::shortened;
 use crate::number::printed;
-use crate::plot::{Axis, Series, Style};
+use crate::plot::{Axis, PlotSeries, Style};
 use slipstick::assessment::single::FloorSpectra;
 
 use crate::report::Report;
@@ -37,7 +37,7 @@ pub fn floors(report: &Report, spectra: &FloorSpectra) -> Option<Drawn> {
     let storeys = shown.iter().zip(storey_styles).map(|(&i, style)| {
         line(names.point(i + 1).to_lowercase(), style, &spectra.storeys_m_per_s2[i])
     });
-    let mut series: Vec<Series> = storeys.collect();
+    let mut series: Vec<PlotSeries> = storeys.collect();
     if !spectra.table_m_per_s2.is_empty() {
         series.push(line("ground".to_owned(), Style::DOTTED, &spectra.table_m_per_s2));
     }

@@ -9,7 +9,7 @@ use slipstick::units::Dimension;
 
 use super::text::in_groups;
 use crate::assessment::lines::{over_x, panel};
-use crate::assessment::sheet::{Sheet, Table};
+use crate::assessment::sheet::{Sheet, SheetTable};
 use crate::describe::model_rows;
 use crate::display::{DisplayUnits, Quantity, Unit};
 use crate::figures::Drawn;
@@ -148,7 +148,7 @@ impl CompareReport<'_> {
     #[must_use]
     pub fn sheet(&self) -> Sheet {
         let Comparison { compared, alignment, warnings, .. } = self.comparison;
-        let titled = |heading: &str, rows: &[Vec<String>]| -> Vec<Table> {
+        let titled = |heading: &str, rows: &[Vec<String>]| -> Vec<SheetTable> {
             in_groups(rows, 3).into_iter().map(|group| (heading.to_owned(), group)).collect()
         };
         let agreement = titled("Agreement", &self.rows());

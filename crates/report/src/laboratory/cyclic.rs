@@ -11,7 +11,7 @@ use crate::display::{DisplayUnits, Quantity};
 use crate::figures::Drawn;
 use crate::json::each;
 use crate::number::significant;
-use crate::plot::{Axis, Layout, Limit, Panel, Series, Style};
+use crate::plot::{Axis, Layout, Limit, Panel, PlotSeries, Style};
 use crate::view;
 
 /// One test.
@@ -310,7 +310,7 @@ fn figure(test: &Test, id: &str, display: DisplayUnits) -> Drawn {
         by_cycle("static +x", Style { dashes: "", ..Style::WIDE }, &|c| c.static_n[0]),
         by_cycle("static −x", Style { dashes: "5 3", ..Style::WIDE }, &|c| c.static_n[1]),
     ];
-    let series: Vec<Series> = series.into_iter().filter(|s| !s.points.is_empty()).collect();
+    let series: Vec<PlotSeries> = series.into_iter().filter(|s| !s.points.is_empty()).collect();
     let values: Vec<f64> = series.iter().flat_map(|s| s.points.iter().map(|p| p[1])).collect();
     let cycles = panel(
         Axis::linear("Cycle", 0.5, test.fit.cycles.len() as f64 + 0.5),

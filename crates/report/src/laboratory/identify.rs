@@ -6,7 +6,7 @@ use slipstick::laboratory::identify::{Fitted, Identified, cyclic_histories};
 use slipstick::laboratory::measured::Measured;
 
 use super::{cyclic, free_vibration, shaking_table};
-use crate::assessment::sheet::{Sheet, Table};
+use crate::assessment::sheet::{Sheet, SheetTable};
 use crate::display::{DisplayUnits, Quantity};
 use crate::figures::Drawn;
 use crate::json::{each, joined, pretty};
@@ -24,7 +24,7 @@ struct OfJob {
     /// Figures, by name.
     facts: Vec<(&'static str, String)>,
     /// Tables below that of the parameters.
-    tables: Vec<Table>,
+    tables: Vec<SheetTable>,
     /// What the intervals assume.
     assumption: String,
     /// The object whose members come last in the JSON object.

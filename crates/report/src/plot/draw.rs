@@ -1,6 +1,6 @@
 //! From figures to SVG.
 
-use super::{Axis, Figure, Layout, Limit, Panel, Series, Shape, Style, Tick, WIDTH, thin};
+use super::{Axis, Figure, Layout, Limit, Panel, PlotSeries, Shape, Style, Tick, WIDTH, thin};
 use crate::markup::Markup;
 use crate::number::trimmed;
 
@@ -146,7 +146,7 @@ fn draw_panel(out: &mut Markup, panel: &Panel, frame: Frame, shaded: &[[f64; 2]]
 }
 
 /// Whether the values of a line can be read off under a pointer: it is a function of x.
-fn is_read(series: &Series) -> bool {
+fn is_read(series: &PlotSeries) -> bool {
     matches!(series.shape, Shape::History | Shape::Area(_))
 }
 
@@ -178,7 +178,7 @@ fn place(out: &mut Markup, frame: Frame) -> &mut Markup {
 
 /// An entry of the legend: a sample of a line or an area, or none, and its text.
 struct Entry<'a> {
-    sample: Option<&'a Series>,
+    sample: Option<&'a PlotSeries>,
     text: &'a str,
 }
 
@@ -192,7 +192,7 @@ impl Entry<'_> {
 }
 
 fn entries(panel: &Panel) -> Vec<Entry<'_>> {
-    let in_legend = |series: &&Series| !series.label.is_empty() && series.shape != Shape::Named;
+    let in_legend = |series: &&PlotSeries| !series.label.is_empty() && series.shape != Shape::Named;
     let named = panel.series.iter().filter(in_legend);
     let mut entries: Vec<Entry> =
         named.map(|series| Entry { sample: Some(series), text: &series.label }).collect();
@@ -249,7 +249,7 @@ fn header(out: &mut Markup, panel: &Panel, frame: Frame) {
     }
 }
 
-fn sample(out: &mut Markup, series: &Series, x: f64, y: f64) {
+fn sample(out: &mut Markup, series: &PlotSeries, x: f64, y: f64) {
     if let Shape::Dots(fill) = series.shape {
         dot(out, series.style, fill, [x + 0.5 * SAMPLE, y]);
     } else if let Shape::Area(fill) | Shape::Band(fill) = series.shape {
@@ -370,7 +370,7 @@ fn stroke(out: &mut Markup, style: Style) {
     }
 }
 
-fn draw_series(out: &mut Markup, panel: &Panel, series: &Series, frame: Frame) {
+fn draw_series(out: &mut Markup, panel: &Panel, series: &PlotSeries, frame: Frame) {
     let placed: Vec<[f64; 2]> = series
         .points
         .iter()

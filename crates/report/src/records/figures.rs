@@ -8,7 +8,7 @@ use crate::assessment::lines::{over_x, panel, single};
 use crate::display::{DisplayUnits, Quantity as Shown, Unit};
 use crate::figures::{Drawn, Trace, marked};
 use crate::number::{compact, printed};
-use crate::plot::{Axis, Figure, Layout, Panel, Series, Style};
+use crate::plot::{Axis, Figure, Layout, Panel, PlotSeries, Style};
 
 /// Heights of panels: four of them and a spectrum stand on one printed page.
 const HISTORY_HEIGHT: f64 = 92.0;
@@ -165,7 +165,7 @@ fn spectra(spectrum: &Spectrum, display: DisplayUnits, id: &'static str) -> Opti
         points.sort_by(|a, b| a[0].total_cmp(&b[0]));
         over_x(format!("damping {} %", compact(100.0 * damping)), styles[i % styles.len()], points)
     });
-    let series: Vec<Series> = series.collect();
+    let series: Vec<PlotSeries> = series.collect();
     let values: Vec<f64> = series.iter().flat_map(|s| s.points.iter().map(|p| p[1])).collect();
     let (name, caption) = if of_displacement {
         (

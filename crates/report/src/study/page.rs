@@ -8,13 +8,13 @@ use slipstick::study::{Certified, LevelSummary, Study, StudySummary};
 use super::{level, level_number, level_unit, said};
 use crate::assessment::lines::{BAND, FRACTILES, GROUPS, band, line, panel, stacked};
 use crate::assessment::pairs;
-use crate::assessment::sheet::{Sheet, Table, cell};
+use crate::assessment::sheet::{Sheet, SheetTable, cell};
 use crate::display::{DisplayUnits, Unit};
 use crate::figures::Drawn;
 use crate::json::pretty;
 use crate::markup::shortened;
 use crate::number::{compact, count};
-use crate::plot::{Axis, Panel, Series, Style};
+use crate::plot::{Axis, Panel, PlotSeries, Style};
 use crate::view;
 
 /// What the page of a study is told from.
@@ -177,7 +177,7 @@ impl StudyReport<'_> {
         failed.into_iter().chain(missing).chain(warned).chain(noticed).collect()
     }
 
-    fn tables(&self) -> Vec<Table> {
+    fn tables(&self) -> Vec<SheetTable> {
         let matched = self.study.matched().map(|matched| pairs::table(self.pairs(), matched));
         super::tables(self.summary, self.display).into_iter().chain(matched).collect()
     }
@@ -229,7 +229,7 @@ impl StudyReport<'_> {
         let (unit, at) = (self.unit(demand), level_unit(self.summary, self.display));
         let bounds = self.bounds();
         let many = bounds.len() > 1;
-        let mut series: Vec<Series> = Vec::new();
+        let mut series: Vec<PlotSeries> = Vec::new();
         let rows = self.rows(demand);
         for (i, bound) in bounds.iter().enumerate() {
             let mut own: Vec<&LevelSummary> =

@@ -24,7 +24,7 @@ impl core::fmt::Display for Averaged {
 }
 
 /// The rows of one value.
-pub(super) struct Group {
+pub(super) struct DesignGroup {
     pub(super) value: f64,
     pub(super) text: String,
     pub(super) rows: Vec<usize>,
@@ -127,25 +127,29 @@ pub(super) fn kept(
 pub(super) fn groups(
     columns: Columns<'_>,
     by: &str,
-) -> Result<(Vec<Group>, String), AssessmentError> {
-    let mut groups: Vec<Group> = Vec::new();
+) -> Result<(Vec<DesignGroup>, String), AssessmentError> {
+    let mut groups: Vec<DesignGroup> = Vec::new();
     if let Some(texts) = texts_of(columns, "by", by)? {
         for (row, text) in texts.iter().enumerate() {
             match groups.iter_mut().find(|group| group.text == *text) {
                 Some(group) => group.rows.push(row),
-                None => groups.push(Group { value: f64::NAN, text: text.clone(), rows: vec![row] }),
+                None => groups.push(DesignGroup {
+                    value: f64::NAN,
+                    text: text.clone(),
+                    rows: vec![row],
+                }),
             }
             few_enough(columns, by, &groups)?;
         }
     } else {
         for (row, value) in columns.numbers_or_nan(by)?.into_iter().enumerate() {
-            let near = |group: &&mut Group| {
+            let near = |group: &&mut DesignGroup| {
                 (group.value - value).abs() <= SAME * value.abs()
                     || (group.value.is_nan() && value.is_nan())
             };
             match groups.iter_mut().find(near) {
                 Some(group) => group.rows.push(row),
-                None => groups.push(Group { value, text: String::new(), rows: vec![row] }),
+                None => groups.push(DesignGroup { value, text: String::new(), rows: vec![row] }),
             }
             few_enough(columns, by, &groups)?;
         }
@@ -154,7 +158,11 @@ pub(super) fn groups(
     Ok((groups, unit_of(columns, by)))
 }
 
-fn few_enough(columns: Columns<'_>, by: &str, groups: &[Group]) -> Result<(), AssessmentError> {
+fn few_enough(
+    columns: Columns<'_>,
+    by: &str,
+    groups: &[DesignGroup],
+) -> Result<(), AssessmentError> {
     if groups.len() <= MOST_GROUPS {
         return Ok(());
     }

@@ -1,13 +1,13 @@
 //! Exported tables as cells that know where they stand: title, names of columns, units, rows.
 
-use super::super::tree::{Sources, Spot};
+use super::super::tree::{SourceSpan, Sources};
 use crate::error::{InputError, cut};
 
 /// A cell and where it stands.
 #[derive(Clone, Debug)]
 pub(super) struct Cell<'a> {
     pub text: &'a str,
-    pub spot: Spot,
+    pub spot: SourceSpan,
 }
 
 /// A column: its name without spaces, in lower case, and its unit, empty where there is none.
@@ -15,7 +15,7 @@ pub(super) struct Cell<'a> {
 pub(super) struct Column<'a> {
     pub name: String,
     pub unit: &'a str,
-    pub spot: Spot,
+    pub spot: SourceSpan,
 }
 
 /// One table of a file.
@@ -23,7 +23,7 @@ pub(super) struct Column<'a> {
 pub(super) struct Exported<'a> {
     /// What stands behind `TABLE:`.
     pub title: Option<&'a str>,
-    pub spot: Spot,
+    pub spot: SourceSpan,
     pub columns: Vec<Column<'a>>,
     pub rows: Vec<Vec<Cell<'a>>>,
     /// Whether decimals may follow a comma.
@@ -50,7 +50,7 @@ pub(super) fn tables<'a>(
             continue;
         }
         if let Some(name) = title_of(bare) {
-            title = Some((name, Spot { source, span: start..start + bare.len() }));
+            title = Some((name, SourceSpan { source, span: start..start + bare.len() }));
             continue;
         }
         let is_header = title.is_some() || all.is_empty();
@@ -61,7 +61,7 @@ pub(super) fn tables<'a>(
         if is_header {
             let (title, spot) = match title.take() {
                 Some((name, spot)) => (Some(name), spot),
-                None => (None, Spot { source, span: start..start + bare.len() }),
+                None => (None, SourceSpan { source, span: start..start + bare.len() }),
             };
             let columns = cells.iter().map(column).collect();
             let decimal_comma = separator != ',';
@@ -76,7 +76,7 @@ pub(super) fn tables<'a>(
             continue;
         }
         if cells.len() != table.columns.len() {
-            let spot = Spot { source, span: start..start + bare.len() };
+            let spot = SourceSpan { source, span: start..start + bare.len() };
             let expected = format!("{} values, as the header has", table.columns.len());
             return Err(sources.error(&spot, "", expected, cells.len().to_string()));
         }
@@ -127,7 +127,7 @@ fn split(line: &str, at: usize, separator: char, source: usize) -> Vec<Cell<'_>>
         from = end + separator.len_utf8();
         Cell {
             text: text.trim_matches('"').trim(),
-            spot: Spot { source, span: start..start + text.len() },
+            spot: SourceSpan { source, span: start..start + text.len() },
         }
     };
     ends.into_iter().map(cell).collect()

@@ -9,7 +9,7 @@
 
 use std::collections::BTreeMap;
 
-use super::super::tree::{Sources, Spot};
+use super::super::tree::{SourceSpan, Sources};
 use super::cells::{Cell, Exported, tables};
 use super::{
     ModalOptions, ModalPoint, ModalRow, ModalTable, Share, in_order, refuse_missing, wanted,
@@ -175,7 +175,7 @@ pub(super) fn read(
     options: &ModalOptions,
 ) -> Result<ModalTable, InputError> {
     let found = ModalTables::read(sources, texts)?;
-    let start = Spot { source: texts.first().map_or(0, |(source, _)| *source), span: 0..0 };
+    let start = SourceSpan { source: texts.first().map_or(0, |(source, _)| *source), span: 0..0 };
     let base = found.get(Kind::Ratios).or(found.get(Kind::Factors));
     let Some(base) = base else {
         let expected = "the table \"Modal Participating Mass Ratios\" or \"Modal Participation Factors\" of ETABS or \
@@ -382,7 +382,7 @@ fn shapes(
         axes.push((column, unit_si(sources, table, column, "m")?));
     }
     let modes = root_mass.len();
-    let mut found: Vec<(String, Spot, [Vec<f64>; 2])> = Vec::new();
+    let mut found: Vec<(String, SourceSpan, [Vec<f64>; 2])> = Vec::new();
     let mut places: BTreeMap<String, usize> = BTreeMap::new();
     for row in &table.rows {
         // Static cases have no modes.

@@ -10,7 +10,7 @@
 
 use std::collections::BTreeMap;
 
-use super::super::tree::{Sources, Spot};
+use super::super::tree::{SourceSpan, Sources};
 use super::cells::{Exported, tables};
 use super::{
     ModalOptions, ModalPoint, ModalRow, ModalTable, Share, in_order, refuse_missing, wanted,
@@ -23,13 +23,13 @@ pub const OPENSEES_TITLE: &str = "MODAL ANALYSIS REPORT";
 /// A number of the report and where it stands.
 struct Number {
     value: f64,
-    spot: Spot,
+    spot: SourceSpan,
 }
 
 /// A section: its title and rows of numbers.
 struct Section<'a> {
     title: &'a str,
-    spot: Spot,
+    spot: SourceSpan,
     rows: Vec<Vec<Number>>,
 }
 
@@ -50,7 +50,7 @@ pub(super) fn read(
     let (source, text) = texts[report];
     let Some(unit_kg) = options.mass_unit_kg else {
         let expected = "the unit of mass of the model, since OpenSees has none: add --mass-unit, such as kg or t";
-        return Err(sources.error(&Spot { source, span: 0..0 }, "", expected, "none"));
+        return Err(sources.error(&SourceSpan { source, span: 0..0 }, "", expected, "none"));
     };
     let (mut out, normalisation) = modes(sources, source, text, unit_kg)?;
     for (i, (source, text)) in texts.iter().enumerate() {
@@ -74,7 +74,7 @@ fn modes(
     let sections = sections(sources, source, text)?;
     let section = |title: &str, columns: usize| -> Result<&Section<'_>, InputError> {
         let found = sections.iter().find(|section| section.title.eq_ignore_ascii_case(title));
-        let end = Spot { source, span: text.len()..text.len() };
+        let end = SourceSpan { source, span: text.len()..text.len() };
         let section = found
             .ok_or_else(|| sources.error(&end, "", format!("the section {title:?}"), "none"))?;
         for row in &section.rows {
@@ -166,7 +166,7 @@ fn sections<'a>(
         if let Some(title) = line.strip_prefix('*') {
             let title = title.split_once(". ").map_or(title, |(_, title)| title);
             let title = title.trim().trim_end_matches(':');
-            let spot = Spot { source, span: from..from + line.len() };
+            let spot = SourceSpan { source, span: from..from + line.len() };
             all.push(Section { title, spot, rows: Vec::new() });
             continue;
         }
@@ -176,7 +176,7 @@ fn sections<'a>(
         let mut row = Vec::new();
         for word in line.split_whitespace() {
             let start = from + (word.as_ptr() as usize - whole.as_ptr() as usize);
-            let spot = Spot { source, span: start..start + word.len() };
+            let spot = SourceSpan { source, span: start..start + word.len() };
             match word.parse::<f64>().ok().filter(|value| value.is_finite()) {
                 Some(value) => row.push(Number { value, spot }),
                 None => {
@@ -195,7 +195,7 @@ fn sections<'a>(
 /// The shapes at a node so far.
 struct AtNode {
     name: String,
-    spot: Spot,
+    spot: SourceSpan,
     shape: Vec<[Option<f64>; 2]>,
 }
 

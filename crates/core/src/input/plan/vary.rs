@@ -7,7 +7,7 @@ use crate::input::paths::join;
 use crate::input::plan_keys::{DISTRIBUTION, MAX_RUNS};
 use crate::input::reader::{LeafValue, Values};
 use crate::input::schema::{Kind, Range};
-use crate::input::tree::{Entry, Node, Spot, Table, Value};
+use crate::input::tree::{Entry, Node, SourceSpan, TomlTable, Value};
 use crate::units::Dimension;
 
 /// Most paths that may be varied: there are Sobol' directions for as many.
@@ -46,7 +46,7 @@ pub(super) fn read(values: &mut Values) -> Result<Vec<Varied>, InputError> {
 fn walk(
     values: &mut Values,
     above: &str,
-    table: &Table,
+    table: &TomlTable,
     all: &mut Vec<Varied>,
 ) -> Result<(), InputError> {
     for entry in &table.0 {
@@ -69,7 +69,7 @@ fn walk(
 }
 
 /// Whether a table holds keys of the model rather than a distribution.
-fn goes_deeper(path: &str, table: &Table) -> bool {
+fn goes_deeper(path: &str, table: &TomlTable) -> bool {
     match find_kind(path) {
         Ok(Kind::Section(_) | Kind::Sections(..) | Kind::Quantities(..) | Kind::Vectors(..)) => {
             table.0.iter().all(|entry| DISTRIBUTION.key(&entry.name).is_none())
@@ -108,7 +108,7 @@ fn varied(values: &mut Values, path: &str, entry: &Entry) -> Result<Varied, Inpu
     Ok(Varied { path, unit, range, of_records: false, distribution, factor_of, paired_with: None })
 }
 
-fn takes(values: &Values, path: &str, key: &Spot) -> Result<Takes, InputError> {
+fn takes(values: &Values, path: &str, key: &SourceSpan) -> Result<Takes, InputError> {
     let place = join("vary", path);
     let refuse = |expected: &str, nearest: Option<String>| {
         let error = values.error_spot(key, &place, expected, format!("\"{}\"", cut(path)));

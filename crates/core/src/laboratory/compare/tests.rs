@@ -139,7 +139,7 @@ fn interpolation_of_a_cubic() {
         block_acceleration_m_per_s2: times.map(|t| 2.0 - 3.0 * t).to_vec(),
         ..History::default()
     };
-    let series = |channel| Series {
+    let series = |channel| MeasuredSeries {
         zero_known: false,
         channel,
         origin: String::new(),

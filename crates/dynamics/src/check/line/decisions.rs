@@ -36,7 +36,7 @@ impl<'a> Judge<'a, Line<'a>> {
     }
 
     /// What an interface at rest is asked for by a demand or an acceleration of contents.
-    pub(super) fn asked_in(
+    pub(super) fn required_friction_in(
         &self,
         i: usize,
         value: f64,
@@ -60,14 +60,15 @@ impl<'a> Judge<'a, Line<'a>> {
             None => self.law.most(),
             Some(c) => c.static_friction * c.mass_kg / self.structure().total_kg,
         };
-        let blur = self.ground.blur();
-        let normal = if i == 0 { self.pressed_rounding(load) } else { load.normal_rounding(blur) };
-        load.rounding_of_mass(blur.0, mass_kg) + mu * normal
+        let load_rounding = self.ground.load_rounding();
+        let normal =
+            if i == 0 { self.pressed_rounding(load) } else { load.normal_rounding(load_rounding) };
+        load.rounding_of_mass(load_rounding.0, mass_kg) + mu * normal
     }
 
-    /// Between which `T/N` the slider is held after what it did before a knot; `leans` where rigid stops hold
+    /// Between which `T/N` the slider is held after what it did before a knot; `bears_on_stop` where rigid stops hold
     /// too.
-    fn hold_at(&self, k: usize, leans: bool) -> [f64; 2] {
+    fn hold_at(&self, k: usize, bears_on_stop: bool) -> [f64; 2] {
         let stored = self.h.surface_displacements(k);
         let hold = match self.before(k)[0] {
             Mode::Slip(slid) if self.law.series.is_some() => {
@@ -75,12 +76,15 @@ impl<'a> Judge<'a, Line<'a>> {
             }
             _ => self.law.hold(stored),
         };
-        let stops = self.law.leans(self.h.sliding_displacement_m[k]).map(|stop| stop && leans);
+        let stops = self
+            .law
+            .bears_on_stop(self.h.sliding_displacement_m[k])
+            .map(|stop| stop && bears_on_stop);
         either(stops, BOUNDLESS, hold)
     }
 
     /// What an interface at rest is asked for at a knot in modes, of which it perhaps sticks, with the rounding of it.
-    fn asked(
+    fn required_friction(
         &self,
         (k, i): (usize, usize),
         (modes, sticks): (&[Mode], bool),
@@ -100,7 +104,7 @@ impl<'a> Judge<'a, Line<'a>> {
                 self.structure().contents[e].mass_kg,
             ),
         };
-        (self.asked_in(i, value, hold, load.normal), self.rounding(i, mass_kg, load))
+        (self.required_friction_in(i, value, hold, load.normal), self.rounding(i, mass_kg, load))
     }
 
     /// What drives an instant at a knot in modes under a load, and the state stored there; what sticks has no velocity.
@@ -139,7 +143,7 @@ impl<'a> Judge<'a, Line<'a>> {
             let others = [before, after, &at_rest];
             let places = if after.len() == 1 { 1 } else { 3 };
             let found = self.weigh((k, i), nearest_s, places, |load, place| {
-                self.asked((k, i), (others[place], true), hold, &all[load])
+                self.required_friction((k, i), (others[place], true), hold, &all[load])
             });
             self.decided((k, i), found);
         }
@@ -174,7 +178,9 @@ impl<'a> Judge<'a, Line<'a>> {
         };
         let jumps = (from.table, from.normal) != (to.table, to.normal);
         let hold = self.hold_at(k, false);
-        let at = |load: &Load, modes: &[Mode], i| self.asked((k, i), (modes, false), hold, load).0;
+        let at = |load: &Load, modes: &[Mode], i| {
+            self.required_friction((k, i), (modes, false), hold, load).0
+        };
         let reached = |i: usize| {
             let [first, last] = [&from, &to].map(|load| at(load, before, i));
             if !jumps {

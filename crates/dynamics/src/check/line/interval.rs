@@ -95,9 +95,9 @@ impl<'a> Judge<'a, Line<'a>> {
         match modes[0] {
             Mode::Stick => {
                 let free = self.law.hold(self.h.surface_displacements(k));
-                let leans = self.law.leans(s);
-                hold = either(leans, BOUNDLESS, free);
-                taken = either(leans, free, BOUNDLESS);
+                let bears_on_stop = self.law.bears_on_stop(s);
+                hold = either(bears_on_stop, BOUNDLESS, free);
+                taken = either(bears_on_stop, free, BOUNDLESS);
             }
             Mode::Slip(direction) => {
                 friction = match self.sliding(k, modes[0]) {
@@ -190,7 +190,7 @@ impl<'a> Judge<'a, Line<'a>> {
                 };
                 let is_first = at_s == from_s && j == 0;
                 let is_last = whole.to_s >= end_s && j + 1 == steps as usize;
-                self.pulse.beat(32 * self.structure().degrees() as u32)?;
+                self.pulse.tick(32 * self.structure().degrees() as u32)?;
                 let acting = (&in_force, piece.as_ref());
                 self.go(path, acting, (&stretch, usual_s), [is_first, is_last]);
             }
@@ -230,7 +230,7 @@ impl<'a> Judge<'a, Line<'a>> {
             drive = self.drive(in_force, &stretch.loads, None);
             self.axes.stepper.step(&drive, (stretch.step_s, None), &mut path.step);
         }
-        let rounding = stretch.loads[0].normal_rounding(self.ground.blur());
+        let rounding = stretch.loads[0].normal_rounding(self.ground.load_rounding());
         path.normal_rounding = path.normal_rounding.max(rounding);
         let least = stretch.loads[0].normal.min(stretch.loads[1].normal);
         let rounding = self.law.pressed_rounding(least, rounding);
@@ -251,7 +251,7 @@ impl<'a> Judge<'a, Line<'a>> {
             self.raise(&path.step.outputs);
         });
         if !drive.sticks(0) {
-            self.still = self.still.max(STILL * path.fastest[0]);
+            self.zero_velocity = self.zero_velocity.max(STILL * path.fastest[0]);
         }
         for (i, mode) in in_force.modes.iter().enumerate() {
             match mode {
@@ -272,10 +272,10 @@ impl<'a> Judge<'a, Line<'a>> {
     fn side(&mut self, path: &LinePath, drive: &Drive<'_>, (stretch, end): (&LineStretch, usize)) {
         let (h, s, k) = (self.h, self.structure(), path.knot + end);
         let load = &stretch.loads[end];
-        let drift = self.instant_s * stretch.loads[0].slope.abs();
+        let state_rounding = self.instant_s * stretch.loads[0].slope.abs();
         let most = self.law.most();
         let f = &mut self.figures;
-        let off = (load.table - h.table_acceleration_m_per_s2[k]).abs() - drift;
+        let off = (load.table - h.table_acceleration_m_per_s2[k]).abs() - state_rounding;
         f.table[0] = larger(f.table[0], excess(off));
         let force = h.friction_force_n[k];
         if !drive.sticks(0) {
@@ -297,7 +297,7 @@ impl<'a> Judge<'a, Line<'a>> {
             let own = |output: usize| path.step.outputs[output][point];
             let of_block = s.block_kg * (own(BLOCK) - h.block_acceleration_m_per_s2[k]).abs();
             let of_demand = if drive.sticks(0) { (own(FRICTION) - force).abs() } else { 0.0 };
-            let rounding = s.total_kg * drift + most * path.pressed_rounding;
+            let rounding = s.total_kg * state_rounding + most * path.pressed_rounding;
             let off = larger(of_block, of_demand) - rounding;
             f.force[0] = larger(f.force[0], excess(off));
             f.force[1] = larger(f.force[1], own(FRICTION));
@@ -376,7 +376,7 @@ impl<'a> Judge<'a, Line<'a>> {
         let rounding = self.rounding(i, mass_kg, &stretch.loads[0]);
         let [from, to] = stretch.loads.map(|load| load.normal);
         let asked = |judge: &Self, value: f64, t: f64| {
-            judge.asked_in(i, value, in_force.hold, from + (to - from) * t)
+            judge.required_friction_in(i, value, in_force.hold, from + (to - from) * t)
         };
         let at_points =
             core::array::from_fn(|point| asked(self, values[point], rule.points[point]));
@@ -409,7 +409,7 @@ impl<'a> Judge<'a, Line<'a>> {
             if inner == Some(point) {
                 (t, speed) = rule.least(&speeds, point, |_, speed| speed);
             }
-            if speed < -self.still || speed.is_nan() {
+            if speed < -self.zero_velocity || speed.is_nan() {
                 let force = per_n * between(stretch.loads, t).normal;
                 let astray = &mut path.astray[i];
                 *astray = [larger(astray[0], speed), larger(astray[1], force)];
@@ -435,20 +435,20 @@ impl<'a> Judge<'a, Line<'a>> {
         // What the rounding of N makes of velocities, places and energies.
         let [own, of_contents] = in_force.slides;
         let force = own * path.pressed_rounding + of_contents * path.normal_rounding;
-        let drift = self.take_drift(force / s.least_kg(), length_s);
+        let state_rounding = self.take_state_rounding(force / s.least_kg(), length_s);
         let moved = |i| {
             let at = s.degree_of(i);
             (end(&path.step.x[at]) - self.stored(k, at)[0]).abs()
         };
         let (moved, speeds): (f64, f64) =
             ((0..in_force.modes.len()).map(moved).sum(), path.fastest.iter().sum());
-        if let Some(blur) = self.books.blur.get_mut(k) {
-            *blur = force * moved + s.total_kg * speeds * drift[1];
+        if let Some(load_rounding) = self.books.load_rounding.get_mut(k) {
+            *load_rounding = force * moved + s.total_kg * speeds * state_rounding[1];
         }
         for (i, fastest) in path.fastest.iter().enumerate() {
             let rates = [k, k + 1].map(|k| self.acceleration(k, i).abs());
             let end = [end(&path.step.x[i]), end(&path.step.v[i])];
-            self.arrive((k + 1, i), end, [*fastest, rates[0].max(rates[1])], drift);
+            self.arrive((k + 1, i), end, [*fastest, rates[0].max(rates[1])], state_rounding);
         }
         for (i, mode) in in_force.modes.iter().enumerate().filter(|(i, _)| path.astray[*i][0] > 0.0)
         {
@@ -457,8 +457,8 @@ impl<'a> Judge<'a, Line<'a>> {
             let [_, stored] = self.stored(k + 1, at);
             let defect = (mode.sign() * (stored - end(&path.step.v[at]))).abs();
             let jerked = [k, k + 1].map(|k| self.acceleration(k, at).abs());
-            let blur = defect + self.instant_s * jerked[0].max(jerked[1]);
-            if path.astray[i][0] > self.still + blur {
+            let load_rounding = defect + self.instant_s * jerked[0].max(jerked[1]);
+            if path.astray[i][0] > self.zero_velocity + load_rounding {
                 self.figures.excess = larger(self.figures.excess, path.astray[i][1]);
             }
         }
@@ -478,7 +478,7 @@ impl<'a> Judge<'a, Line<'a>> {
         let own = sliding.displacements(from, moved);
         let fastest = self.axes.attained[VELOCITY];
         for (own, stored) in own.iter().zip(to) {
-            let off = (own - stored).abs() - self.instant_s * fastest - self.drift[0];
+            let off = (own - stored).abs() - self.instant_s * fastest - self.state_rounding[0];
             self.figures.displacement[0] = larger(self.figures.displacement[0], excess(off));
         }
         let normal = self.ground.instant(h.time_s[k + 1])[0].normal;

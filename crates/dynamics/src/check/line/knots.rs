@@ -65,9 +65,12 @@ impl<'a> Judge<'a, Line<'a>> {
     /// Whether more than friction, spring and an elastic stop acts on the block at a knot: the spring of a pendulum, or
     /// a rigid stop. Sliding, the block has left the stop or not yet struck it.
     fn is_held(&self, k: usize) -> bool {
-        let leans = || self.law.leans(self.h.sliding_displacement_m[k]) != [false; 2];
+        let bears_on_stop =
+            || self.law.bears_on_stop(self.h.sliding_displacement_m[k]) != [false; 2];
         self.law.is_pendulum()
-            || (self.law.restitution().is_some() && self.h.modes(k)[0] == Mode::Stick && leans())
+            || (self.law.restitution().is_some()
+                && self.h.modes(k)[0] == Mode::Stick
+                && bears_on_stop())
     }
 
     /// Looks at every knot; kinetic and strain energy. `None` where something stored is not finite.
@@ -78,7 +81,7 @@ impl<'a> Judge<'a, Line<'a>> {
         let mut energies = [Vec::new(), Vec::new()];
         let mut finite = true;
         for k in 0..self.h.len() {
-            self.pulse.beat(2 * d as u32)?;
+            self.pulse.tick(2 * d as u32)?;
             finite &= self.take_knot_sizes(k, &mut sizes);
             let at_knot = self.balance(k, &mut room);
             energies.iter_mut().zip(at_knot).for_each(|(list, energy)| list.push(energy));

@@ -152,12 +152,13 @@ impl<'a> PlaneJudge<'a> {
     pub(super) fn stays(&mut self, step: &Step) {
         let Stretch { from_s, step_s, loads, .. } = step.stretch;
         let rounding = self.rounding(&loads[0]);
-        let at_points =
-            core::array::from_fn(|point| self.asked(step.push(point), &step.loads(point)).0);
+        let at_points = core::array::from_fn(|point| {
+            self.required_friction(step.push(point), &step.loads(point)).0
+        });
         self.held(0, (from_s, step_s), rounding, &at_points, |judge, t| {
             let state = step.at(judge.axes.stepper.rule, t);
             let loads = between(&loads, t);
-            judge.asked(judge.push(&state, &loads), &loads).0
+            judge.required_friction(judge.push(&state, &loads), &loads).0
         });
     }
 

@@ -68,7 +68,7 @@ impl<'a> PlaneJudge<'a> {
         if !slips {
             path.state.v[..2].fill(0.0);
         }
-        let (mut at_s, mut drift) = (from_s, 0.0);
+        let (mut at_s, mut state_rounding) = (from_s, 0.0);
         while at_s < end_s {
             let grounds = [&mut self.ground, &mut self.axes.ground_y];
             let pieces = grounds.map(|ground| ground.piece(at_s, end_s));
@@ -85,7 +85,8 @@ impl<'a> PlaneJudge<'a> {
                 let side = self.side(k + 1, &loads[1], Place::End);
                 self.take(&side);
             }
-            drift = f64::max(drift, self.normal_drift(&path.state, &loads[0]));
+            state_rounding =
+                f64::max(state_rounding, self.normal_rounding_of_state(&path.state, &loads[0]));
             let stretch = Stretch { from_s: at_s, step_s: to_s - at_s, loads, line: None };
             if slips {
                 self.slide(&mut path, &stretch)?;
@@ -94,14 +95,14 @@ impl<'a> PlaneJudge<'a> {
             }
             at_s = to_s;
         }
-        self.ends(&path, drift);
+        self.ends(&path, state_rounding);
         Ok(())
     }
 
     /// What the rounding of `N` makes of the force on the block.
-    fn normal_drift(&self, state: &State, loads: &Loads) -> f64 {
+    fn normal_rounding_of_state(&self, state: &State, loads: &Loads) -> f64 {
         let frame = self.frame();
-        let normal_n = loads[0].normal_rounding(self.ground.blur());
+        let normal_n = loads[0].normal_rounding(self.ground.load_rounding());
         let follows = frame.curvature_per_m * norm([state.x[0], state.x[1]]);
         frame.most * self.pressed_rounding(&loads[0]) + follows * normal_n
     }
@@ -110,16 +111,17 @@ impl<'a> PlaneJudge<'a> {
     fn ends(&mut self, path: &IntervalPath, drift_n: f64) {
         let (k, instant_s) = (path.knot, self.instant_s);
         let length_s = self.h.time_s[k + 1] - self.h.time_s[k];
-        let drift = self.take_drift(drift_n / self.frame().least_kg(), length_s);
+        let state_rounding = self.take_state_rounding(drift_n / self.frame().least_kg(), length_s);
         for i in 0..path.fastest.len() {
             let end = [path.state.x[i], path.state.v[i]];
-            self.arrive((k + 1, i), end, [path.fastest[i], path.rates[i]], drift);
+            self.arrive((k + 1, i), end, [path.fastest[i], path.rates[i]], state_rounding);
         }
         self.axes.arrived = norm(path.state.speed());
         if self.ground.has_vertical() {
             let speed: f64 = path.fastest.iter().sum();
             let moved = path.fastest[0].max(path.fastest[1]) * length_s;
-            self.books.blur[k] += drift_n * moved + self.frame().total_kg * speed * drift[1];
+            self.books.load_rounding[k] +=
+                drift_n * moved + self.frame().total_kg * speed * state_rounding[1];
         }
         let Some(rested_s) = path.rested_s else { return };
         let loads = self.instant(self.h.time_s[k + 1])[0];
@@ -148,7 +150,7 @@ impl<'a> PlaneJudge<'a> {
         for j in 0..steps {
             let length_s = stretch.step_s / steps as f64;
             let part = stretch.part(j as f64 * length_s, length_s);
-            self.pulse.beat(64 * self.frame().degrees() as u32)?;
+            self.pulse.tick(64 * self.frame().degrees() as u32)?;
             let Some(step) = self.axes.stepper.solve(&path.state, part, false) else {
                 self.give_up();
                 return Ok(());
@@ -232,7 +234,7 @@ impl<'a> PlaneJudge<'a> {
         }
         let (line, mut cuts) = (self.line_from(path, &stretch.at(t)), 0);
         loop {
-            self.pulse.beat(256 + 64 * self.frame().degrees() as u32)?;
+            self.pulse.tick(256 + 64 * self.frame().degrees() as u32)?;
             let part = Stretch { line, ..stretch.part(t, step_s) };
             let step = self.axes.stepper.solve(&path.state, part, true);
             let bearable = self.bearable();

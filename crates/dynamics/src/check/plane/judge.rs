@@ -1,7 +1,7 @@
 //! What is judged in a plane: from knot to knot in order of time.
 
 use super::super::demands::{Comparison, Rounding};
-use super::super::energy::Books;
+use super::super::energy::EnergyBalance;
 use super::super::ground::{Ground, nearest};
 use super::super::judge::{Directions, Judge, JudgeInput, Run, Sizes};
 use super::super::law::StickDemand;
@@ -154,7 +154,7 @@ impl<'a> PlaneJudge<'a> {
     }
 
     /// What a block at rest is asked for, and the rounding of it. All slips are called positive: `T = −|p| M1`.
-    pub(super) fn asked(&self, push: Pair, loads: &Loads) -> (StickDemand, f64) {
+    pub(super) fn required_friction(&self, push: Pair, loads: &Loads) -> (StickDemand, f64) {
         let (demand, high) = (
             -self.frame().block_kg * norm(push),
             self.frame().fixed * self.law.pressed(loads[0].normal),
@@ -164,7 +164,7 @@ impl<'a> PlaneJudge<'a> {
 
     /// What the rounding of times makes of what a block at rest is asked for, less what holds it.
     pub(super) fn rounding(&self, loads: &Loads) -> f64 {
-        let ((instant_s, _), frame) = (self.ground.blur(), self.frame());
+        let ((instant_s, _), frame) = (self.ground.load_rounding(), self.frame());
         let table = loads.iter().map(|load| load.rounding_of_mass(instant_s, frame.block_kg));
         table.sum::<f64>() + frame.fixed * self.pressed_rounding(&loads[0])
     }
@@ -198,7 +198,7 @@ impl<'a> PlaneJudge<'a> {
             let off = (load.table - own).abs() - self.instant_s * load.slope.abs();
             side.table = larger(side.table, excess(off));
         }
-        let normal_n = loads[0].normal_rounding(self.ground.blur());
+        let normal_n = loads[0].normal_rounding(self.ground.load_rounding());
         let follows_n = frame.curvature_per_m * normal_n * norm([state.x[0], state.x[1]]);
         if self.mode(k) == Mode::Stick {
             side.speed = norm(state.speed());
@@ -314,7 +314,7 @@ impl Directions for PlaneJudge<'_> {
         }
         self.take_sizes(&sizes);
         let varies = self.ground.has_vertical();
-        self.books = Books::new([kinetic, strain], 0.0, [varies, self.law.follows()]);
+        self.books = EnergyBalance::new([kinetic, strain], 0.0, [varies, self.law.follows()]);
         Ok(finite)
     }
 
@@ -324,7 +324,7 @@ impl Directions for PlaneJudge<'_> {
             let state = self.state(k);
             let found = self.weigh((k, 0), nearest(off), 1, |load, _| {
                 let push = self.push(&state, &all[load]);
-                self.asked(push, &all[load])
+                self.required_friction(push, &all[load])
             });
             self.decided((k, 0), found);
         }
@@ -335,7 +335,7 @@ impl Directions for PlaneJudge<'_> {
     }
 
     /// By the load that suits it best.
-    fn alone(&mut self, k: usize) {
+    fn isolated_knot(&mut self, k: usize) {
         let all = self.instant(self.h.time_s[k]);
         let sides = all.map(|loads| self.side(k, &loads, Place::Alone));
         let off = |side: &Side| [side.table, side.excess + side.defect];
@@ -356,16 +356,16 @@ impl Directions for PlaneJudge<'_> {
         }
     }
 
-    fn abreast(&mut self, k: usize) -> bool {
+    fn at_same_time(&mut self, k: usize) -> bool {
         for degree in 0..self.frame().degrees() {
             let before = self.stored(k - 1, degree);
-            self.compare(k, degree, before, [0.0, self.jolt]);
+            self.compare(k, degree, before, [0.0, self.velocity_rounding]);
         }
         self.turn_between(k - 1);
         false
     }
 
-    fn slipped(&mut self, _: usize, _: Direction) -> Option<ClosestCall> {
+    fn closest_call_of_slip(&mut self, _: usize, _: Direction) -> Option<ClosestCall> {
         let (minimum, peak) = (self.dips[0].so_far(), self.dips[0].peak());
         if minimum.is_finite() {
             let least = &mut self.axes.least_speed;

@@ -70,7 +70,7 @@ fn terms(radians: f64) -> usize {
 }
 
 /// Degrees of freedom that move together.
-struct Group {
+struct DegreeGroup {
     /// Their places in a state; those of the block come first.
     degrees: Vec<usize>,
     /// Axes of the block among them, in that order.
@@ -83,7 +83,7 @@ struct Group {
     of_force: Vec<Vec<Vec<f64>>>,
 }
 
-impl Group {
+impl DegreeGroup {
     fn size(&self) -> usize {
         2 * self.degrees.len()
     }
@@ -199,7 +199,7 @@ struct Maps {
 
 /// Masses, springs and dampers where the block rests, or where it slides.
 pub(super) struct Linear {
-    groups: Vec<Group>,
+    groups: Vec<DegreeGroup>,
     /// An upper bound on the fastest rate, in 1/s.
     rate: f64,
     /// The maps of the step that comes again and again.
@@ -245,7 +245,7 @@ impl Linear {
             let of_table = axes.iter().map(|axis| of_loads(along(*axis), [0.0; 2])).collect();
             let starts: Vec<Vec<f64>> =
                 axes.iter().map(|axis| of_loads([0.0; 2], along(*axis))).collect();
-            let mut group = Group { degrees, axes, rates, of_table, of_force: Vec::new() };
+            let mut group = DegreeGroup { degrees, axes, rates, of_table, of_force: Vec::new() };
             let powers = |start: Vec<f64>| {
                 let mut all = vec![[vec![0.0; n], start].concat()];
                 for l in 1..TERMS {

@@ -32,9 +32,9 @@ impl State {
 }
 
 /// The series of each component of a state.
-pub struct Series(pub Vec<Polynomial>);
+pub struct PlainSeries(pub Vec<Polynomial>);
 
-impl Series {
+impl PlainSeries {
     pub fn w(&self) -> Polynomial {
         self.0[1]
     }
@@ -136,8 +136,14 @@ impl Rates {
     }
 }
 
-pub fn series(system: &System, slip: bool, state: &State, load: &Load, length_s: f64) -> Series {
-    let mut series = crate::linear::Series::new(system, DEGREE);
+pub fn series(
+    system: &System,
+    slip: bool,
+    state: &State,
+    load: &Load,
+    length_s: f64,
+) -> PlainSeries {
+    let mut series = crate::linear::ModalSeries::new(system, DEGREE);
     let mut x = state.0.clone();
     let components = x.len();
     x.resize(components.div_ceil(4) * 4, 0.0);
@@ -145,11 +151,11 @@ pub fn series(system: &System, slip: bool, state: &State, load: &Load, length_s:
         series.expand(simd, system, slip, &x, load, length_s);
     });
     let width = Many(system.modes());
-    Series((0..components).map(|i| series.component(width, i)).collect())
+    PlainSeries((0..components).map(|i| series.component(width, i)).collect())
 }
 
 /// A coefficient of a series as a state.
-pub fn coefficient(series: &Series, k: usize) -> State {
+pub fn coefficient(series: &PlainSeries, k: usize) -> State {
     assert!(k <= DEGREE);
     State(series.0.iter().map(|c| c[k]).collect())
 }

@@ -93,7 +93,7 @@ fn prop_parts_of_an_interval_agree_with_the_whole_series() {
             }
             let start = [&x.0[..], &[0.0; 4][..row.len() - components]].concat();
             let mut out = row.clone();
-            let mut scratch = crate::linear::Series::new(system, DEGREE);
+            let mut scratch = crate::linear::ModalSeries::new(system, DEGREE);
             let (of_a, of_force) = (random.unit(), if slip { random.unit() } else { 0.0 });
             let of_row = whole.row(&row[..components]);
             for _ in 0..10 {

@@ -14,7 +14,7 @@ use crate::linear::Window;
 use crate::response::Mode;
 use crate::response::output;
 use crate::slider::{Direction, Hold};
-use crate::solver::phase::Reached;
+use crate::solver::phase::Advance;
 
 /// Keeps the block's numbers of a state.
 const BLOCK: Four = Four([1.0, 1.0, 0.0, 0.0]);
@@ -66,16 +66,16 @@ impl<'r, 'a, S: Simd> Ahead<'r, 'a, S> {
 
     /// Goes on from the first of two samples towards the second.
     #[inline(always)]
-    pub(super) fn go(&mut self, [mut sample, end]: [usize; 2]) -> Result<Reached, SolveError> {
+    pub(super) fn go(&mut self, [mut sample, end]: [usize; 2]) -> Result<Advance, SolveError> {
         self.attain();
         let mut at_s = 0.0;
-        while sample < end && !self.is_due() {
+        while sample < end && !self.has_pending_decision() {
             let from = sample;
             sample = match self.shared.course.block.mode {
                 Mode::Slip(direction) => self.screen_slip(sample, end, direction),
                 Mode::Stick => self.screen_stick(sample, end),
             };
-            self.shared.pulse.beat(16 + (sample - from) as u32)?;
+            self.shared.pulse.tick(16 + (sample - from) as u32)?;
             if sample < end {
                 if let Some(ambiguous_s) = self.step(sample) {
                     at_s = ambiguous_s;
@@ -86,7 +86,7 @@ impl<'r, 'a, S: Simd> Ahead<'r, 'a, S> {
         }
         self.attain();
         self.hand_over();
-        Ok(Reached { sample, at_s })
+        Ok(Advance { sample, at_s })
     }
 
     /// Hands the peaks over.
@@ -97,7 +97,7 @@ impl<'r, 'a, S: Simd> Ahead<'r, 'a, S> {
 
     /// Whether a slip has just started, or a stop is still to be decided.
     #[inline(always)]
-    pub(super) fn is_due(&self) -> bool {
+    pub(super) fn has_pending_decision(&self) -> bool {
         let course = &self.shared.course;
         course.block.start.is_some() || course.is_stopped(self.shared.x[1])
     }
@@ -216,7 +216,7 @@ impl<'r, 'a, S: Simd> Ahead<'r, 'a, S> {
     #[inline(always)]
     fn attain(&mut self) {
         let mode = self.shared.course.block.mode;
-        if mode != Mode::Stick && !self.is_due() {
+        if mode != Mode::Stick && !self.has_pending_decision() {
             let x = *self.shared.x;
             let outputs = self.of.tables.slip.outputs.at(self.simd, x, self.force_n(mode));
             self.peak = larger_sizes(self.peak, outputs);

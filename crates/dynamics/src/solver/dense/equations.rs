@@ -75,7 +75,7 @@ impl OneStorey {
 
     /// `M1 a + K1 s − L·f`: what keeps the block stuck.
     #[inline(always)]
-    pub(super) fn demand_n(&self, x: &[f64; 4], a: f64) -> f64 {
+    pub(super) fn required_friction_n(&self, x: &[f64; 4], a: f64) -> f64 {
         (self.block_mass_kg * a + self.stiffness_n_per_m * x[0])
             - self.participation * self.restoring(x)
     }

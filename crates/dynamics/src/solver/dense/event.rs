@@ -8,7 +8,7 @@ use fearless_simd::prelude::*;
 
 use super::ahead::Ahead;
 use super::lanes::{four, greatest, least};
-use super::series::{Series, Span};
+use super::series::{Span, StoreySeries};
 use crate::response::Mode;
 use crate::slider::Direction;
 use crate::solver::course::{AMBIGUOUS, Instant};
@@ -48,7 +48,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
     /// Takes one sample; the time in it from where on it is ambiguous.
     #[inline(always)]
     pub(super) fn step(&mut self, sample: usize) -> Option<f64> {
-        if self.is_due() {
+        if self.has_pending_decision() {
             return Some(0.0);
         }
         let (pieces, a) = (self.of.tables.pieces, self.of.ground.acceleration);
@@ -90,12 +90,12 @@ impl<S: Simd> Ahead<'_, '_, S> {
         let Span { rest, a, change } = segment.span;
         let [low, high] = self.of.bounds_n;
         let table = &self.of.tables.stick.series;
-        let series = Series::<S>::new::<false>(simd, table, x, &segment.span, 0.0);
+        let series = StoreySeries::<S>::new::<false>(simd, table, x, &segment.span, 0.0);
         let end = series.at(rest);
         let curvature = storey.participation * storey.restoring(series.curvature.as_array());
         let hidden = 0.125 * curvature * (rest * rest);
-        let demand = storey.demand_n(&x, a);
-        let end_demand = storey.demand_n(end.as_array(), a + change * rest);
+        let demand = storey.required_friction_n(&x, a);
+        let end_demand = storey.required_friction_n(end.as_array(), a + change * rest);
         let above = least(high - demand, high - end_demand) > hidden;
         let below = least(demand - low, end_demand - low) > hidden;
         if above && below {
@@ -126,7 +126,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
             let derivatives = series.derivatives(t, velocities);
             let f1 = l * storey.restoring(derivatives[0].as_array());
             let f2 = l * storey.restoring(derivatives[1].as_array());
-            let g = sign * bound - sign * storey.demand_n(y.as_array(), a + change * t);
+            let g = sign * bound - sign * storey.required_friction_n(y.as_array(), a + change * t);
             let d = halley(g, f1 - m * change, f2);
             t += d;
             if d.abs() < SHORT {
@@ -144,7 +144,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
         let (sign, rest) = (direction.sign(), segment.span.rest);
         let force_n = self.force_n(segment.mode);
         let table = &tables.slip.series;
-        let series = Series::<S>::new::<true>(simd, table, x, &segment.span, force_n);
+        let series = StoreySeries::<S>::new::<true>(simd, table, x, &segment.span, force_n);
         let end = series.velocities(rest);
         let curvature = series.curvature.as_array()[1];
         let [c1, c2, c3, c4] = series.leading_speed();
@@ -208,7 +208,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
         &mut self,
         segment: &Segment,
         at_sample: bool,
-        series: &Series<S>,
+        series: &StoreySeries<S>,
         x: f64x4<S>,
         friction_n: [f64; 2],
     ) -> End {
@@ -222,7 +222,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
         &mut self,
         segment: &Segment,
         at_sample: bool,
-        series: &Series<S>,
+        series: &StoreySeries<S>,
         (t, x): (f64, f64x4<S>),
         friction_n: [f64; 2],
     ) -> End {
@@ -241,7 +241,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
         &mut self,
         segment: &Segment,
         at_sample: bool,
-        series: &Series<S>,
+        series: &StoreySeries<S>,
         (t, x): (f64, f64x4<S>),
         friction_n: [f64; 2],
     ) {
@@ -264,7 +264,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
             mass_kg: storey.block_mass_kg,
         };
         let hold = self.hold;
-        let demand_n = storey.demand_n(self.shared.x, a);
+        let demand_n = storey.required_friction_n(self.shared.x, a);
         if segment.mode == Mode::Stick {
             let [low, high] = self.of.bounds_n;
             let is_high = high - demand_n < demand_n - low;

@@ -7,7 +7,7 @@ use super::ahead::Ahead;
 use super::event::Segment;
 use super::lanes::{Abreast, Eight, Four, eight, greatest, larger};
 use super::outputs::{Kept, REGISTERS, above, by_register, each, kept, larger_sizes, loaded, plus};
-use super::series::{Series, Span};
+use super::series::{Span, StoreySeries};
 use crate::linear::polynomial::{ZERO, largest};
 use crate::response::Mode;
 use crate::response::output;
@@ -116,7 +116,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
     pub(super) fn look<const SLIP: bool>(
         &mut self,
         segment: &Segment,
-        series: &Series<S>,
+        series: &StoreySeries<S>,
         end: f64x4<S>,
         t: f64,
         friction_n: [f64; 2],
@@ -149,7 +149,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
 
     /// How far the gates depart from the chord over the first part `t` of a segment at most.
     #[inline(always)]
-    fn slack<const SLIP: bool>(&self, series: &Series<S>, t: f64) -> Abreast<S> {
+    fn slack<const SLIP: bool>(&self, series: &StoreySeries<S>, t: f64) -> Abreast<S> {
         let gates = &self.phase::<SLIP>().gates;
         gates.of_sizes(self.simd, series.curvature).times(self.simd, 0.125 * (t * t))
     }
@@ -277,7 +277,8 @@ impl<S: Simd> Ahead<'_, '_, S> {
         let (simd, phase) = (self.simd, self.phase::<SLIP>());
         let (Span { rest, a, change }, of) = (segment.span, &phase.outputs);
         let force_n = self.force_n(segment.mode);
-        let series = Series::new::<SLIP>(simd, &phase.series, segment.x, &segment.span, force_n);
+        let series =
+            StoreySeries::new::<SLIP>(simd, &phase.series, segment.x, &segment.span, force_n);
         let end = series.at(rest).to_array();
         let input = if SLIP { [force_n; 2] } else { [a, a + change * rest] };
         let (first, last) = (of.at(simd, segment.x, input[0]), of.at(simd, end, input[1]));

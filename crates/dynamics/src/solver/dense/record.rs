@@ -79,7 +79,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
                     (s, w) = ([x[0]; BATCH + 1], [0.0; BATCH + 1]);
                     let table = self.of.ground.table[sample..].first_chunk();
                     block = *table.unwrap_or(&[0.0; BATCH + 1]);
-                    let first = storey.demand_n(&x, a[0]);
+                    let first = storey.required_friction_n(&x, a[0]);
                     friction = window(first, demand + eight(simd, of_spring));
                 }
                 let mut of_storey = None;

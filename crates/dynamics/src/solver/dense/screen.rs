@@ -268,7 +268,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
             let demand = self.row::<false>(&tables.stick.rows[0], start, a, 0.0);
             let clear = demand.simd_gt(eight(simd, (low - spring_n) + hidden))
                 & demand.simd_lt(eight(simd, (high - spring_n) - hidden));
-            let first = storey.demand_n(&start, a[0]);
+            let first = storey.required_friction_n(&start, a[0]);
             let holds_first = first > low + hidden && first < high - hidden;
             let steps = clear_steps(clear.to_bitmask(), holds_first);
             if steps == 0 {

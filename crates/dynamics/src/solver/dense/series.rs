@@ -66,12 +66,12 @@ const INTEGRAL: ByOrder = FACTORS[2];
 /// component of the state, of the acceleration, of its change over the piece and of the friction force
 /// adds to them.
 #[derive(Debug)]
-pub(super) struct Table {
+pub(super) struct SeriesTable {
     pub(super) piece_s: f64,
     columns: [[Eight; 7]; GROUPS],
 }
 
-impl Table {
+impl SeriesTable {
     pub(super) const EMPTY: Self = Self { piece_s: 0.0, columns: [[Eight::ZERO; 7]; GROUPS] };
 
     /// Fills the table of a phase.
@@ -117,7 +117,7 @@ impl Table {
 }
 
 /// The motion over a piece.
-pub(super) struct Series<S: Simd> {
+pub(super) struct StoreySeries<S: Simd> {
     simd: S,
     piece_s: f64,
     /// `s, η` and `ṡ, η̇` at the start.
@@ -132,12 +132,12 @@ pub(super) struct Series<S: Simd> {
     pub(super) curvature: f64x4<S>,
 }
 
-impl<S: Simd> Series<S> {
+impl<S: Simd> StoreySeries<S> {
     /// Series of a phase from a state.
     #[inline(always)]
     pub(super) fn new<const SLIP: bool>(
         simd: S,
-        table: &Table,
+        table: &SeriesTable,
         x: [f64; 4],
         span: &Span,
         force: f64,

@@ -12,7 +12,7 @@ use fearless_simd::prelude::*;
 use super::equations::{OneStorey, unit};
 use super::lanes::{BATCH, Eight, Five, Four};
 use super::outputs::{Gates, Outputs, Shape};
-use super::series::{PIECE_RATE, Table};
+use super::series::{PIECE_RATE, SeriesTable};
 use crate::linear::{QUIET, System};
 use crate::solver::outputs::OutputRow;
 
@@ -37,7 +37,7 @@ pub(in crate::solver) struct Tables {
 /// Tables of stick or slip.
 #[derive(Debug)]
 pub(super) struct Phase {
-    pub(super) series: Table,
+    pub(super) series: SeriesTable,
     /// `E^k`, column by column.
     pub(super) power: [[Four; 4]; BATCH + 1],
     /// What a unit of acceleration at the first sample leaves after `k`.
@@ -134,7 +134,7 @@ impl Tables {
 
 impl Phase {
     const EMPTY: Self = Self {
-        series: Table::EMPTY,
+        series: SeriesTable::EMPTY,
         power: [[Four::ZERO; 4]; BATCH + 1],
         first: [Four::ZERO; BATCH + 1],
         tap: [Four::ZERO; 2 * BATCH],
@@ -265,7 +265,7 @@ struct Sample {
 
 impl Sample {
     #[inline(always)]
-    fn new(table: &Table, slip: bool, pieces: usize) -> Self {
+    fn new(table: &SeriesTable, slip: bool, pieces: usize) -> Self {
         let (of_a, of_change) = (Four(table.end(4)), Four(table.end(5)));
         let of_force = if slip { Four(table.end(6)) } else { Four::ZERO };
         let mut piece = [Four::ZERO; 4];

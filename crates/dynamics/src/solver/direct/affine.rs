@@ -15,7 +15,7 @@
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
-use super::super::course::Course;
+use super::super::course::WalkState;
 use super::super::ground::Normal;
 use super::super::phase::Phase;
 use super::Direct;
@@ -140,7 +140,7 @@ fn terms(row: &[f64]) -> Vec<(usize, f64)> {
 
 impl<'a> Direct<'a> {
     /// The place of the present configuration, if its motion is affine.
-    pub(super) fn configuration(&mut self, course: &Course<'a>) -> Option<usize> {
+    pub(super) fn configuration(&mut self, course: &WalkState<'a>) -> Option<usize> {
         let dt_s = self.ground.sampling.dt_s?;
         let Normal::Constant(normal_n) = self.ground.normal else { return None };
         let count = self.x.count();
@@ -170,7 +170,7 @@ impl<'a> Direct<'a> {
         self.ahead.configurations[place].affine.is_some().then_some(place)
     }
 
-    fn affine(&mut self, course: &Course<'a>, dt_s: f64, normal_n: f64) -> Option<Affine> {
+    fn affine(&mut self, course: &WalkState<'a>, dt_s: f64, normal_n: f64) -> Option<Affine> {
         let restraint = self.force.affine(normal_n).restraints.all;
         let (k, c) = (restraint.stiffness_n_per_m, restraint.damper_n_s_per_m);
         let block_kg = self.body.joined_kg(0, &self.modes);
@@ -203,7 +203,7 @@ impl<'a> Direct<'a> {
     /// and each output as a row with its factor of the acceleration and its constant.
     fn units(
         &mut self,
-        course: &Course<'a>,
+        course: &WalkState<'a>,
         normal_n: f64,
     ) -> (Matrices, Vec<(Vec<f64>, f64, f64)>) {
         let count = self.x.count();
@@ -224,7 +224,7 @@ impl<'a> Direct<'a> {
             units.push(response);
         }
         self.x = here;
-        self.enter(course);
+        self.update_branch(course);
         let mut a = vec![0.0; stride * stride];
         // What stands still moves nothing: only rows of outputs ask for it.
         for i in (0..count).filter(|&i| self.moves(i)) {
@@ -239,14 +239,14 @@ impl<'a> Direct<'a> {
     /// Derivative, padded, and outputs of a state and an acceleration.
     fn respond(
         &mut self,
-        course: &Course<'a>,
+        course: &WalkState<'a>,
         state: &[f64],
         normal_n: f64,
         stride: usize,
     ) -> Vec<f64> {
         self.x.set(state);
         // At rest springs push by where the block is.
-        self.enter(course);
+        self.update_branch(course);
         let acceleration = [state[self.x.count()], 0.0];
         self.look_at_orders(1, &Loads { acceleration, normal: [normal_n, 0.0] });
         let mut response = vec![0.0; stride];
@@ -343,7 +343,7 @@ mod tests {
     use crate::model::{Block, Contents, Damping, Frame, InitialState, Model, Slider};
     use crate::motion::GroundMotion;
     use crate::numerics::InstructionSet;
-    use crate::progress::{Pulse, UNWATCHED};
+    use crate::progress::{NEVER_CANCELLED, Pulse};
     use crate::slider::{Direction, Friction};
 
     /// Two storeys with contents on the block, and two on the floors.
@@ -366,7 +366,7 @@ mod tests {
     }
 
     /// Looks at every assignment of modes of a model.
-    fn each(model: &Model, look: impl for<'a> Fn(&mut Direct<'a>, &Course<'a>)) {
+    fn each(model: &Model, look: impl for<'a> Fn(&mut Direct<'a>, &WalkState<'a>)) {
         let motion = GroundMotion::evenly_spaced(0.01, vec![0.0; 20], None).expect("a motion");
         let (sampling, law) = (Sampling::new(&motion), model.law(false));
         let ground = Ground {
@@ -377,12 +377,12 @@ mod tests {
             sampling: &sampling,
         };
         for assignment in 0..16_u32 {
-            let how = (false, Pulse::new(UNWATCHED));
+            let how = (false, Pulse::new(NEVER_CANCELLED));
             let mut walk = start(model, &law, ground, InstructionSet::best(), how);
             for i in (0..walk.course.interfaces()).filter(|i| assignment & (1 << i) != 0) {
                 walk.course.interface_mut(i).mode = Mode::Slip(Direction::Positive);
             }
-            walk.phase.enter(&walk.course);
+            walk.phase.update_branch(&walk.course);
             look(&mut walk.phase, &walk.course);
         }
     }

@@ -9,8 +9,8 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use super::super::chords::bound_between;
-use super::super::course::Course;
-use super::super::phase::{Phase, Straight};
+use super::super::course::WalkState;
+use super::super::phase::{LinePhase, Phase};
 use super::super::walk::Walk;
 use super::Direct;
 use super::affine::{Affine, Configuration, Nine, Number};
@@ -104,8 +104,8 @@ fn may_run_ahead<'a>(walk: &Walk<'a, Direct<'a>>) -> bool {
     walk.is_settled()
         && !is_at_stop
         && (0..course.interfaces()).all(|i| match course.mode(i) {
-            Mode::Slip(direction) => direction.sign() * phase.place(i)[1] > 0.0,
-            Mode::Stick => phase.hold(course, i).leans == [false; 2],
+            Mode::Slip(direction) => direction.sign() * phase.position_and_velocity(i)[1] > 0.0,
+            Mode::Stick => phase.hold(course, i).bears_on_stop == [false; 2],
         })
 }
 
@@ -130,7 +130,7 @@ fn batches<'a, S: Simd>(
         ahead.outputs.clear();
         let start = affine.outputs.iter().map(|y| [y.at(&ahead.x, a); BATCH + 1]);
         ahead.outputs.extend(start);
-        while sample + BATCH <= end && walk.pulse.beat(walk.units).is_ok() {
+        while sample + BATCH <= end && walk.pulse.tick(walk.units).is_ok() {
             let steps = phase.batch(simd, course, ahead, (affine, configuration), &margins, sample);
             sample += steps;
             if steps < BATCH {
@@ -145,7 +145,7 @@ fn batches<'a, S: Simd>(
 
 impl<'a> Direct<'a> {
     /// The output that says what a stuck interface is asked for, and between what it is held.
-    fn held_between(&self, course: &Course<'a>, interface: usize) -> (usize, [f64; 2]) {
+    fn held_between(&self, course: &WalkState<'a>, interface: usize) -> (usize, [f64; 2]) {
         let (normal_n, hold) = (self.ground.normal_at(0), self.hold(course, interface));
         let Some(i) = interface.checked_sub(1) else {
             return (output::FRICTION, hold.holds_n(normal_n));
@@ -156,7 +156,7 @@ impl<'a> Direct<'a> {
     }
 
     /// What must stay positive in the present modes; false where that is more than values of the outputs.
-    fn find_margins(&self, course: &Course<'a>, margins: &mut Vec<Margin>) -> bool {
+    fn find_margins(&self, course: &WalkState<'a>, margins: &mut Vec<Margin>) -> bool {
         margins.clear();
         let mut push = |of, constant| margins.push(Margin { of, constant });
         for (i, mode) in self.modes.iter().enumerate() {
@@ -189,7 +189,7 @@ impl<'a> Direct<'a> {
     fn batch<S: Simd>(
         &mut self,
         simd: S,
-        course: &Course<'a>,
+        course: &WalkState<'a>,
         ahead: &mut Ahead,
         (affine, configuration): (&Affine, usize),
         margins: &[Margin],
@@ -287,7 +287,7 @@ impl<'a> Direct<'a> {
     }
 
     /// Settles the candidates that are still in question, those that promise most first.
-    pub(super) fn settle_candidates(&mut self, course: &mut Course<'a>) {
+    pub(super) fn settle_candidates(&mut self, course: &mut WalkState<'a>) {
         let mut candidates = core::mem::take(&mut self.ahead.candidates);
         let states = core::mem::take(&mut self.ahead.candidate_states);
         let peaks = &self.peaks.values;
@@ -306,14 +306,19 @@ impl<'a> Direct<'a> {
     }
 
     /// Looks for peaks in the sample of a candidate by its series.
-    fn settle_candidate(&mut self, course: &mut Course<'a>, candidate: &Candidate, states: &[f64]) {
+    fn settle_candidate(
+        &mut self,
+        course: &mut WalkState<'a>,
+        candidate: &Candidate,
+        states: &[f64],
+    ) {
         let here = (self.x.clone(), self.modes.clone(), course.slider.memory.clone());
         let near = course.near.take();
         let configuration = &self.ahead.configurations[candidate.configuration];
         course.slider.memory.clone_from(&configuration.memory);
         course.set_modes(&configuration.modes);
         self.x.set(&states[candidate.state..][..self.x.count()]);
-        self.enter(course);
+        self.update_branch(course);
         let sample = candidate.sample;
         let to_s = self.ground.times_s[sample + 1] - self.ground.times_s[sample];
         let stretch = self.ground.stretch(sample, 0.0, to_s);
@@ -328,7 +333,7 @@ impl<'a> Direct<'a> {
         (self.x, modes, course.slider.memory) = here;
         course.set_modes(&modes);
         course.near = near;
-        self.enter(course);
+        self.update_branch(course);
     }
 }
 

@@ -2,10 +2,10 @@
 
 use core::ops::Range;
 
-use super::super::course::Course;
+use super::super::course::WalkState;
 use super::super::ground::Ground;
 use super::super::outputs::{Arms, Linear, Quantities};
-use super::super::phase::Straight;
+use super::super::phase::LinePhase;
 use super::Direct;
 use super::body::{Body, Expansion, Loads, combined};
 use crate::linear::polynomial::{
@@ -221,7 +221,7 @@ impl<'a> Direct<'a> {
     }
 
     /// Looks for peaks in the part of the series just gone through.
-    pub(super) fn look_at_outputs(&mut self, course: &mut Course<'_>, part: f64) {
+    pub(super) fn look_at_outputs(&mut self, course: &mut WalkState<'_>, part: f64) {
         for j in 0..self.peaks.outputs.len() {
             match self.peaks.outputs[j] {
                 Output::FrictionForce => self.look_at_friction(course, part),
@@ -240,7 +240,7 @@ impl<'a> Direct<'a> {
     }
 
     /// Friction takes what it can where the block leans on a rigid stop, the stop the rest.
-    fn look_at_friction(&mut self, course: &mut Course<'_>, part: f64) {
+    fn look_at_friction(&mut self, course: &mut WalkState<'_>, part: f64) {
         let beyond =
             self.beyond_friction(course).into_iter().find(|(_, p)| value(p, 0.5 * part) > 0.0);
         let friction = &self.series.friction;
@@ -253,7 +253,7 @@ impl<'a> Direct<'a> {
         raise(&mut course.slider.stopping.demands.peak_force_n, &beyond, part);
     }
 
-    fn look_at_stop(&mut self, course: &mut Course<'_>, part: f64) {
+    fn look_at_stop(&mut self, course: &mut WalkState<'_>, part: f64) {
         let (law, contact) = (course.slider.law, course.slider.memory.contact);
         if !law.has_pads() {
             return;
@@ -275,7 +275,7 @@ impl<'a> Direct<'a> {
     /// Records the present state as a knot at a time, under an acceleration of the table.
     pub(super) fn record_knot(
         &mut self,
-        course: &Course<'_>,
+        course: &WalkState<'_>,
         [time_s, table]: [f64; 2],
         loads: &Loads,
         row: bool,
@@ -290,10 +290,10 @@ impl<'a> Direct<'a> {
             let [friction_n] = &mut outputs[output::FRICTION];
             let hold = course.hold(self.x.s);
             let [low, high] = hold.friction_n(loads.normal[0]);
-            if hold.leans[0] {
+            if hold.bears_on_stop[0] {
                 *friction_n = friction_n.max(low);
             }
-            if hold.leans[1] {
+            if hold.bears_on_stop[1] {
                 *friction_n = friction_n.min(high);
             }
         }
@@ -304,7 +304,7 @@ impl<'a> Direct<'a> {
     /// Stores samples in the present modes as rows of the history, by their states and outputs side by side.
     pub(super) fn store_samples<const K: usize>(
         &mut self,
-        course: &Course<'_>,
+        course: &WalkState<'_>,
         samples: Range<usize>,
         lists: [&[[f64; K]]; 2],
     ) {
@@ -316,7 +316,7 @@ impl<'a> Direct<'a> {
     /// outputs side by side.
     fn store<const K: usize>(
         &mut self,
-        course: &Course<'_>,
+        course: &WalkState<'_>,
         [times_s, table]: [&[f64]; 2],
         [states, outputs]: [&[[f64; K]]; 2],
         are_rows: bool,

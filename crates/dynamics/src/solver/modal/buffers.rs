@@ -1,7 +1,7 @@
 //! Buffers that one analysis leaves to the next.
 
 use super::Peaks;
-use crate::linear::Series;
+use crate::linear::ModalSeries;
 use crate::linear::lanes::Eight;
 use crate::response::Event;
 use crate::solver::course::Release;
@@ -12,7 +12,7 @@ use crate::solver::dense::Candidate;
 pub(in crate::solver) struct Buffers {
     pub(super) states: [Vec<f64>; 2],
     pub(super) values: Vec<Eight>,
-    pub(super) series: Series,
+    pub(super) series: ModalSeries,
     pub(super) modes: [Vec<f64>; 3],
     pub(in crate::solver) peaks: Peaks,
     pub(in crate::solver) released: Vec<Release>,

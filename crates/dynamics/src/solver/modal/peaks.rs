@@ -9,7 +9,7 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use super::super::chords::bound_between;
-use super::super::course::Course;
+use super::super::course::WalkState;
 use super::super::ground::Stretch;
 use super::super::phase::Segment;
 use super::series::output_series;
@@ -249,7 +249,7 @@ impl<'a> Modal<'a> {
 
     /// Looks at the force of the stop in `x` and, in slip, over a part of the series.
     #[inline(never)]
-    pub(super) fn look_at_stop(&mut self, course: &mut Course<'a>, part: f64) {
+    pub(super) fn look_at_stop(&mut self, course: &mut WalkState<'a>, part: f64) {
         let InForce { mode, contact, .. } = self.now;
         let mut force_n = self.law.stop_force_n(contact, self.x[0], self.x[1]);
         if let (Some([of_s, of_w, constant]), Mode::Slip(_)) = (self.law.stop_row(contact), mode) {

@@ -9,7 +9,7 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use super::super::chords::clear_steps;
-use super::super::course::Course;
+use super::super::course::WalkState;
 use super::super::ground::{Normal, largest_size};
 use super::super::recorder::Knot;
 use super::super::tables::{Batch, PhaseTables};
@@ -59,7 +59,7 @@ impl<'a> Modal<'a> {
     pub(super) fn screened<S: Simd, W: Width>(
         &mut self,
         how: How<S, W>,
-        (course, pulse): (&Course<'a>, &mut Pulse<'a>),
+        (course, pulse): (&WalkState<'a>, &mut Pulse<'a>),
         sample: usize,
         end: usize,
     ) -> usize {
@@ -96,7 +96,7 @@ impl<'a> Modal<'a> {
     fn screen_slip<S: Simd, W: Width>(
         &mut self,
         how: How<S, W>,
-        (course, pulse): (&Course<'a>, &mut Pulse<'a>),
+        (course, pulse): (&WalkState<'a>, &mut Pulse<'a>),
         (phase, batch): (&'a PhaseTables, &'a Batch),
         [mut sample, end]: [usize; 2],
         direction: Direction,
@@ -112,7 +112,7 @@ impl<'a> Modal<'a> {
         let coefficient = self.now.friction;
         let mut known = Known::default();
         while sample + BATCH <= end {
-            if pulse.beat(self.units).is_err() {
+            if pulse.tick(self.units).is_err() {
                 break;
             }
             if varying && !(self.ground.normal.least(simd, sample) > 0.0) {
@@ -184,7 +184,7 @@ impl<'a> Modal<'a> {
     fn screen_stick<S: Simd, W: Width>(
         &mut self,
         how: How<S, W>,
-        (course, pulse): (&Course<'a>, &mut Pulse<'a>),
+        (course, pulse): (&WalkState<'a>, &mut Pulse<'a>),
         (phase, batch): (&'a PhaseTables, &'a Batch),
         [mut sample, end]: [usize; 2],
     ) -> usize {
@@ -198,7 +198,7 @@ impl<'a> Modal<'a> {
         let constant = row.of_stop * stop + row.constant;
         let mut known = Known::default();
         while sample + BATCH <= end {
-            if pulse.beat(self.units).is_err() {
+            if pulse.tick(self.units).is_err() {
                 break;
             }
             let a = self.window(sample);
@@ -438,7 +438,7 @@ impl<'a> Modal<'a> {
     fn take_quiet<S: Simd, W: Width>(
         &mut self,
         how: How<S, W>,
-        course: &Course<'a>,
+        course: &WalkState<'a>,
         batch: &Batch,
         sample: usize,
     ) {
@@ -466,7 +466,7 @@ impl<'a> Modal<'a> {
     fn record_batch<S: Simd, W: Width>(
         &mut self,
         how: How<S, W>,
-        course: &Course<'a>,
+        course: &WalkState<'a>,
         batch: &Batch,
         [sample, steps]: [usize; 2],
         (a, force): (&Window, Force<'_>),

@@ -10,7 +10,7 @@ use super::super::tables::PhaseTables;
 use super::{How, InForce, Modal};
 use crate::linear::lanes::{Width, least};
 use crate::linear::polynomial::{DEGREE, Polynomial};
-use crate::linear::{Load, Series};
+use crate::linear::{Load, ModalSeries};
 use crate::response::{Mode, output};
 use crate::slider::Fading;
 
@@ -143,7 +143,7 @@ pub(super) fn output_series<S: Simd, W: Width>(
     How { simd, width }: How<S, W>,
     phase: &PhaseTables,
     j: usize,
-    series: &Series,
+    series: &ModalSeries,
     load: &Load,
     stop: f64,
 ) -> Polynomial {

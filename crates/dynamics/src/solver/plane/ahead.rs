@@ -20,7 +20,7 @@ use crate::error::SolveError;
 use crate::numerics::InstructionSet;
 use crate::numerics::instructions::vectorize;
 use crate::response::Mode;
-use crate::solver::phase::{Phase, Reached};
+use crate::solver::phase::{Advance, Phase};
 use crate::solver::walk::Walk;
 
 /// Part of the bound up to which a push has certainly not reached it.
@@ -161,12 +161,12 @@ impl Ahead {
 pub(super) fn run_ahead<'a>(
     walk: &mut Walk<'a, Plane<'a>>,
     [mut sample, end]: [usize; 2],
-) -> Result<Reached, SolveError> {
-    let Some(mut ahead) = walk.phase.ahead.take() else { return Ok(Reached { sample, at_s: 0.0 }) };
+) -> Result<Advance, SolveError> {
+    let Some(mut ahead) = walk.phase.ahead.take() else { return Ok(Advance { sample, at_s: 0.0 }) };
     let mut done = Ok(());
     ahead.is_known = false;
     while walk.course.block.mode == Mode::Stick && !walk.phase.is_released && sample < end {
-        done = walk.pulse.beat(walk.units);
+        done = walk.pulse.tick(walk.units);
         if done.is_err() || !walk.phase.passes(&mut ahead, sample) {
             break;
         }
@@ -184,7 +184,7 @@ pub(super) fn run_ahead<'a>(
     }
     walk.phase.ahead = Some(ahead);
     done?;
-    Ok(Reached { sample, at_s: 0.0 })
+    Ok(Advance { sample, at_s: 0.0 })
 }
 
 impl Plane<'_> {

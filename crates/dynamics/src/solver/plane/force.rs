@@ -10,14 +10,14 @@
 //! push does to the velocity. The unknowns of Newton's method are the angles, and the speeds where friction follows them.
 
 use super::nodes::{AtNodes, NODES, Nodes, Square, nodes};
-use super::series::{Kind, Series};
+use super::series::{Kind, PlaneSeries};
 use super::system::{Loads, State, System};
 use super::terms::Scales;
 use super::vector::{cross, inner, norm};
 use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, derivative, value};
 use crate::numerics::InstructionSet;
 use crate::numerics::instructions::vectorize;
-use crate::slider::Kinetic;
+use crate::slider::IsotropicFriction;
 
 /// Most passes of Newton's method.
 const MOST_PASSES: usize = 24;
@@ -74,7 +74,7 @@ impl Influence {
         &mut self,
         system: &System,
         (loads, step_s): (&Loads, f64),
-        series: &mut Series,
+        series: &mut PlaneSeries,
     ) {
         let pressed_n_per_m = loads.normal[0] * system.per_radius;
         if self.pressed_n_per_m != Some(pressed_n_per_m) {
@@ -95,7 +95,7 @@ impl Influence {
         system: &System,
         (state, loads): (&State, &Loads),
         step_s: f64,
-        series: &mut Series,
+        series: &mut PlaneSeries,
     ) -> Option<[AtNodes; 2]> {
         let again_s = self.again_s.filter(|own_s| (own_s - step_s).abs() <= SAME * step_s)?;
         let pressed_n_per_m = loads.normal[0] * system.per_radius;
@@ -130,7 +130,7 @@ impl Influence {
         system: &System,
         normal_n: f64,
         step_s: f64,
-        series: &mut Series,
+        series: &mut PlaneSeries,
     ) -> bool {
         let modes = system.modes();
         let scales = Scales { w: 1.0, ..Scales::default() };
@@ -154,7 +154,7 @@ impl Influence {
     }
 
     /// Follows a push along each axis.
-    fn push(&mut self, system: &System, loads: &Loads, series: &mut Series) {
+    fn push(&mut self, system: &System, loads: &Loads, series: &mut PlaneSeries) {
         let rate = system.rate_rad_per_s;
         self.unit_s = if rate > 0.0 { 4.0 / rate } else { 1.0 };
         let still = Loads { table: [[0.0; 2]; 2], normal: [loads.normal[0], 0.0] };
@@ -251,13 +251,13 @@ impl Force {
     }
 
     /// Keeps the motion without friction.
-    pub(super) fn keep(&mut self, series: &Series) {
+    pub(super) fn keep(&mut self, series: &PlaneSeries) {
         (self.series, self.unit_s) = (series.w, series.unit);
         self.reach_s = if series.part > 0.0 { series.part * series.unit } else { 0.0 };
     }
 
     /// `N` that friction follows over a step.
-    pub(super) fn press(&mut self, law: &Kinetic, loads: &Loads, step_s: f64) {
+    pub(super) fn press(&mut self, law: &IsotropicFriction, loads: &Loads, step_s: f64) {
         let [normal_n, rate] = loads.normal;
         let normal_n = nodes().at.map(|x| (normal_n + rate * (step_s * x)).max(0.0));
         self.normal_n = normal_n.map(|n| law.pressing_n(n));
@@ -272,7 +272,7 @@ impl Force {
     /// Directions to begin with: those of the velocity under friction along one direction.
     pub(super) fn guess(
         &mut self,
-        law: &Kinetic,
+        law: &IsotropicFriction,
         along: [f64; 2],
         speed: f64,
         influence: &Influence,
@@ -291,7 +291,11 @@ impl Force {
     }
 
     /// Directions to begin with, node by node, from rest, by how the velocity without friction changes there.
-    pub(super) fn guess_each(&mut self, law: &Kinetic, along: impl Fn([f64; 2]) -> [f64; 2]) {
+    pub(super) fn guess_each(
+        &mut self,
+        law: &IsotropicFriction,
+        along: impl Fn([f64; 2]) -> [f64; 2],
+    ) {
         self.sizes = self.normal_n.map(|n| law.at(0.0) * n);
         self.speeds = [0.0; NODES];
         let changes = self.series.each_ref().map(derivative);
@@ -324,7 +328,7 @@ impl Force {
     }
 
     /// Finds the directions; whether they are those of the velocities, ahead of rest.
-    pub(super) fn settle(&mut self, law: &Kinetic, influence: &Influence) -> bool {
+    pub(super) fn settle(&mut self, law: &IsotropicFriction, influence: &Influence) -> bool {
         vectorize!(influence.instructions, _simd => if law.is_constant() {
             self.settle_here::<NODES>(law, influence)
         } else {
@@ -333,7 +337,11 @@ impl Force {
     }
 
     #[inline(always)]
-    fn settle_here<const N: usize>(&mut self, law: &Kinetic, influence: &Influence) -> bool {
+    fn settle_here<const N: usize>(
+        &mut self,
+        law: &IsotropicFriction,
+        influence: &Influence,
+    ) -> bool {
         let mut factors: Option<Factors<N>> = None;
         let mut last = f64::INFINITY;
         self.move_by(influence);
@@ -406,7 +414,11 @@ impl Force {
 
     /// How `n·w` and `u·w − r` change with the turns and with the speeds, both with the opposite sign.
     #[inline(always)]
-    fn slopes<const N: usize>(&self, law: &Kinetic, influence: &Influence) -> [[f64; N]; N] {
+    fn slopes<const N: usize>(
+        &self,
+        law: &IsotropicFriction,
+        influence: &Influence,
+    ) -> [[f64; N]; N] {
         let mut a = [[0.0; N]; N];
         let g = &influence.of;
         for j in 0..NODES {

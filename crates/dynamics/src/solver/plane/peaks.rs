@@ -7,7 +7,7 @@
 use super::mass::{Matrix, times};
 use super::nodes::{NODES, nodes};
 use super::rows::{PointsBetween, Rows, at};
-use super::series::{Kind, Series, square};
+use super::series::{Kind, PlaneSeries, square};
 use super::stop::Arc;
 use super::system::{State, System};
 use super::vector::{apart, inner, norm};
@@ -80,7 +80,7 @@ impl Peak {
         let q = squared(of);
         let (bend, rounding) = (bend(&q, to), ROUNDING * (self.norm * self.norm));
         let ends = ends.map(|v| v[0] * v[0] + v[1] * v[1]);
-        let arch = Arch { bend, rise: q[1] * to, rounding, ends, to };
+        let arch = ChordBound { bend, rise: q[1] * to, rounding, ends, to };
         self.search_length(&arch, |x| value(&q, x), best)
     }
 
@@ -98,7 +98,7 @@ impl Peak {
         for axis in 0..2 {
             let (bend, rounding) = (bends[axis], ROUNDING * self.norm);
             let (rise, ends) = (of[axis][1] * to, ends.map(|v| v[axis].abs()));
-            let component = Arch { bend, rise, rounding, ends, to };
+            let component = ChordBound { bend, rise, rounding, ends, to };
             component.search(|x| value(&of[axis], x).abs(), &mut self.axes[axis]);
         }
         (ends, bends, best)
@@ -107,7 +107,7 @@ impl Peak {
     /// Looks for the largest square of the length.
     fn search_length(
         &mut self,
-        arch: &Arch,
+        arch: &ChordBound,
         of: impl Fn(f64) -> f64,
         best: Option<f64>,
     ) -> Option<f64> {
@@ -122,7 +122,7 @@ impl Peak {
 
 /// A function over `[0, to]`: its values at the ends, how far it departs from its chord, how far it would rise as it does at
 /// the start, or 0, and what of it is rounding.
-struct Arch {
+struct ChordBound {
     bend: f64,
     rise: f64,
     rounding: f64,
@@ -130,7 +130,7 @@ struct Arch {
     to: f64,
 }
 
-impl Arch {
+impl ChordBound {
     /// Looks for values above what has been attained; where the largest is, if there is one.
     fn search(&self, of: impl Fn(f64) -> f64, attained: &mut f64) -> Option<f64> {
         let [first, last] = self.ends;
@@ -206,7 +206,7 @@ impl Room {
 
     /// Of a part of a series that ends with a state and `g`.
     #[inline(always)]
-    fn look(&mut self, system: &System, series: &Series, to: f64, (end, g): (&State, &[f64])) {
+    fn look(&mut self, system: &System, series: &PlaneSeries, to: f64, (end, g): (&State, &[f64])) {
         let all = [&series.eta, &series.rate, &series.g];
         for (list, bends) in all.into_iter().zip(&mut self.of_modes) {
             series.bends(list, to, bends);
@@ -236,7 +236,7 @@ struct Composed {
 
 impl Composed {
     /// Without friction.
-    fn steady(&self, axis: usize, series: &Series) -> Polynomial {
+    fn steady(&self, axis: usize, series: &PlaneSeries) -> Polynomial {
         let (pull, shear) = (&series.pull[axis], &series.shear[axis]);
         let own = core::array::from_fn(|k| self.of_pull * pull[k] + self.of_shear * shear[k]);
         less(own, self.less[axis])
@@ -272,7 +272,7 @@ impl Chord {
 /// What of a series is looked at.
 struct SeriesPart<'a> {
     system: &'a System,
-    series: &'a Series,
+    series: &'a PlaneSeries,
     to: f64,
     /// Of `P`, `L g` and `φ`.
     chords: &'a [[Chord; 2]; 3],
@@ -401,7 +401,7 @@ impl Peaks {
     pub(super) fn look(
         &mut self,
         system: &System,
-        (series, to): (&Series, f64),
+        (series, to): (&PlaneSeries, f64),
         from_s: f64,
         end: (&State, &[f64]),
     ) {
@@ -479,7 +479,7 @@ impl Peaks {
         output: Output,
         of: ([[f64; 2]; 2], [f64; 2]),
         rows: (&[Rows; 2], usize, &[f64]),
-        part: (&Series, f64),
+        part: (&PlaneSeries, f64),
     ) {
         self.look_at_rows_apart(output, of, rows, part, [0.0; 2]);
     }
@@ -491,7 +491,7 @@ impl Peaks {
         output: Output,
         (ends, bend): ([[f64; 2]; 2], [f64; 2]),
         rows: (&[Rows; 2], usize, &[f64]),
-        (series, to): (&Series, f64),
+        (series, to): (&PlaneSeries, f64),
         constant: [f64; 2],
     ) {
         let peak = &mut self.all[output.place(self.points)];
@@ -511,7 +511,7 @@ impl Peaks {
         self.all[output.place(self.points)].look(of, to);
     }
 
-    fn look_at_sliding(&mut self, series: &Series, to: f64, from_s: f64) {
+    fn look_at_sliding(&mut self, series: &PlaneSeries, to: f64, from_s: f64) {
         let s = &series.s;
         if let Some(x) = self.sliding.look(s, to) {
             self.peak_time_s = from_s + series.unit * x;
@@ -730,7 +730,7 @@ impl Peaks {
 
 /// What friction takes at a part of a series: in slip along the velocity there; from rest, where that begins with
 /// what the nodes leave out, along the polynomial through its values there and at the start.
-fn friction_at(system: &System, series: &Series, x: f64) -> [f64; 2] {
+fn friction_at(system: &System, series: &PlaneSeries, x: f64) -> [f64; 2] {
     if series.kind != Kind::Slip {
         return series.friction.each_ref().map(|p| value(p, x));
     }
@@ -753,12 +753,12 @@ fn friction_at(system: &System, series: &Series, x: f64) -> [f64; 2] {
 
 /// How far what the polynomial of friction leaves out in a slip departs from its chord at most: its coefficients are below
 /// the last of those.
-fn left_out(series: &Series, to: f64) -> f64 {
+fn left_out(series: &PlaneSeries, to: f64) -> f64 {
     if series.kind == Kind::Slip { 0.125 * LEFT_OUT * series.tail * (to * to) } else { 0.0 }
 }
 
 /// How far it departs from its chord by axis: of a slip that of the polynomial, and of what that leaves out.
-fn friction_chord(system: &System, series: &Series, to: f64) -> [Chord; 2] {
+fn friction_chord(system: &System, series: &PlaneSeries, to: f64) -> [Chord; 2] {
     let [from, end] = [0.0, to].map(|x| friction_at(system, series, x));
     let left_out = left_out(series, to);
     [0, 1].map(|axis| {
@@ -801,7 +801,7 @@ impl Vector {
         for axis in 0..2 {
             bends[axis] = bend(&all[axis], to) + norm(self.of_friction[axis]) * left_out;
             let ends = ends.map(|v| v[axis].abs());
-            let arch = Arch { bend: bends[axis], rise: 0.0, rounding, ends, to };
+            let arch = ChordBound { bend: bends[axis], rise: 0.0, rounding, ends, to };
             arch.search(|x| of(x)[axis].abs(), &mut peak.axes[axis]);
         }
         let largest = norm(ends[0]).max(norm(ends[1])) + norm(bends);
@@ -812,7 +812,7 @@ impl Vector {
         let of_friction = norm(self.of_friction.map(norm)) * left_out;
         let bend = bend(&squared(&all), to) + 2.0 * largest * of_friction;
         let rounding = ROUNDING * (peak.norm * peak.norm);
-        let arch = Arch { bend, rise: 0.0, rounding, ends: ends.map(square), to };
+        let arch = ChordBound { bend, rise: 0.0, rounding, ends: ends.map(square), to };
         peak.search_length(&arch, |x| square(of(x)), None);
     }
 }

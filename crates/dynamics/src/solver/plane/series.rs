@@ -20,7 +20,7 @@ pub(super) enum Kind {
 }
 
 /// The motion from an instant on, by powers of the time over a unit in s.
-pub(super) struct Series {
+pub(super) struct PlaneSeries {
     pub(super) kind: Kind,
     pub(super) instructions: InstructionSet,
     pub(super) modes: usize,
@@ -75,7 +75,7 @@ pub(super) fn square(a: &Polynomial, k: usize) -> f64 {
     2.0 * sides + middle
 }
 
-impl Series {
+impl PlaneSeries {
     pub(super) fn new(system: &System, instructions: InstructionSet) -> Self {
         let list = || vec![0.0; system.modes() * (DEGREE + 1)];
         let pair = || [ZERO; 2];

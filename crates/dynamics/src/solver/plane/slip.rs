@@ -8,7 +8,7 @@ use super::stop::Instant;
 use super::system::Loads;
 use super::vector::{inner, norm};
 use crate::linear::polynomial::value;
-use crate::slider::Kinetic;
+use crate::slider::IsotropicFriction;
 use crate::solver::ground::Stretch;
 use crate::solver::slider::first_crossing;
 
@@ -100,7 +100,7 @@ impl Plane<'_> {
     }
 
     /// The law of friction on the line of the speed on which a slip goes on, and the speeds between which it lies.
-    fn law_at(&self, at: &Instant) -> (Kinetic, [f64; 2]) {
+    fn law_at(&self, at: &Instant) -> (IsotropicFriction, [f64; 2]) {
         let law = &self.system.kinetic_per_kg;
         if !law.has_corners() {
             return (law.clone(), [0.0, f64::INFINITY]);
@@ -148,7 +148,7 @@ impl Plane<'_> {
     /// Tries a step of a length, leaving its series.
     fn try_slip(
         &mut self,
-        (at, law): (&Instant, &Kinetic),
+        (at, law): (&Instant, &IsotropicFriction),
         starts: bool,
         over: (Loads, f64),
     ) -> Tried {
@@ -162,7 +162,7 @@ impl Plane<'_> {
             // At its bound a block follows the push as that turns.
             let system = &self.system;
             self.force.guess_each(law, |change| {
-                let p = system.asked(change);
+                let p = system.required_friction(change);
                 let size = norm(p);
                 if size > 0.0 { p.map(|p| p / size) } else { along }
             });
@@ -207,7 +207,7 @@ impl Plane<'_> {
     /// this one does not stand.
     fn settle(
         &mut self,
-        (at, law): (&Instant, &Kinetic),
+        (at, law): (&Instant, &IsotropicFriction),
         starts: bool,
         (loads, step_s): (Loads, f64),
         along: [f64; 2],

@@ -2,7 +2,7 @@
 
 use super::nodes::{AtNodes, NODES, nodes};
 use super::peaks::bend;
-use super::series::{Kind, Series};
+use super::series::{Kind, PlaneSeries};
 use super::vector::{inner, norm};
 use crate::linear::polynomial::{DEGREE, ZERO, derivative, value};
 
@@ -27,7 +27,7 @@ impl Least {
     }
 
     /// Looks at the speed over the first part of a series.
-    pub(super) fn look(&mut self, series: &Series, (to, speeds): (f64, &AtNodes)) {
+    pub(super) fn look(&mut self, series: &PlaneSeries, (to, speeds): (f64, &AtNodes)) {
         match series.kind {
             Kind::Stick => self.interrupt(),
             _ if series.w.each_ref().map(derivative) == [ZERO; 2] => {}
@@ -40,7 +40,7 @@ impl Least {
     }
 
     /// The same of a slip, whose speed falls and rises between its nodes as the speeds there tell.
-    fn look_at_nodes(&mut self, series: &Series, (to, speeds): (f64, &AtNodes)) {
+    fn look_at_nodes(&mut self, series: &PlaneSeries, (to, speeds): (f64, &AtNodes)) {
         if to == 0.0 {
             return;
         }
@@ -101,7 +101,7 @@ impl Least {
 }
 
 /// `w·ẇ`. The series of `|w|²` would not do: beside a large `|w|` its rounding hides how small the least is.
-pub(super) fn slope_of(series: &Series) -> impl Fn(f64) -> f64 {
+pub(super) fn slope_of(series: &PlaneSeries) -> impl Fn(f64) -> f64 {
     let change = series.w.each_ref().map(derivative);
     move |x| inner(series.velocity_at(x), change.each_ref().map(|c| value(c, x)))
 }
@@ -151,7 +151,7 @@ fn bisected(slope: &impl Fn(f64) -> f64, sign: f64, [mut low, mut high]: [f64; 2
 }
 
 /// A bound on the least speed over the first part of a series: that of its chord, less how far it departs from it.
-fn lowest(series: &Series, to: f64) -> f64 {
+fn lowest(series: &PlaneSeries, to: f64) -> f64 {
     let [from, end] = [0.0, to].map(|x| series.velocity_at(x));
     let chord = [end[0] - from[0], end[1] - from[1]];
     let square = inner(chord, chord);
@@ -161,7 +161,7 @@ fn lowest(series: &Series, to: f64) -> f64 {
 }
 
 /// `∫|w| dt` over the first part of a series; of a slip by the speeds at its nodes.
-pub(super) fn path_m(series: &Series, (to, speeds): (f64, &AtNodes)) -> f64 {
+pub(super) fn path_m(series: &PlaneSeries, (to, speeds): (f64, &AtNodes)) -> f64 {
     if series.kind == Kind::Stick {
         return 0.0;
     }

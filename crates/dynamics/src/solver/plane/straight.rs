@@ -18,7 +18,7 @@ use crate::response::{
     Demands, EventInPlane, EventKind, History, HistoryAlongY, InPlane, Method, Mode,
     PointFactorsInPlane, Response, StoreyDemands,
 };
-use crate::solver::course::Course;
+use crate::solver::course::WalkState;
 use crate::solver::ground::{Ground, GroundAlongY, Stretch, contact_loss_s};
 use crate::solver::slider::SliderState;
 use crate::solver::summary;
@@ -360,7 +360,7 @@ pub(in crate::solver) fn solve(
     let units = 64 * (1 + system.modes()) as u32;
     let phase = Plane::new((system, state), (ground, along_y), instructions, with_history);
     let course =
-        Course::new(SliderState::new(&law, s, speed), [s, speed], (Vec::new(), Vec::new()));
+        WalkState::new(SliderState::new(&law, s, speed), [s, speed], (Vec::new(), Vec::new()));
     let mut walk = Walk::new((phase, course), (ground, [0.0, model.normal_n()]), (pulse, units));
     walk.go()?;
     let Walk { phase, course, .. } = walk;

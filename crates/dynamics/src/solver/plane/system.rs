@@ -7,7 +7,7 @@ use crate::error::SolveError;
 use crate::linear;
 use crate::model::{Model, OscillatorInPlane, Structure};
 use crate::numerics::algebra::dot;
-use crate::slider::{Disc, Kinetic};
+use crate::slider::{Disc, IsotropicFriction};
 use crate::solver::outputs::Arms;
 use crate::solver::tables::system_of;
 
@@ -46,7 +46,7 @@ pub(in crate::solver) struct System {
     pub(super) slope: [f64; 2],
     /// The accelerations that friction holds, `μ_s N/M1`, and `μ_k/M1`: times `N` that which it takes.
     pub(super) hold: Disc,
-    pub(super) kinetic_per_kg: Kinetic,
+    pub(super) kinetic_per_kg: IsotropicFriction,
     omega2: Vec<f64>,
     /// `D`, row by row where the modes are coupled, else its diagonal.
     damping: Vec<f64>,
@@ -269,13 +269,13 @@ impl System {
     /// `p` from `P` and the acceleration of the table: what a block at rest is asked for.
     #[inline(always)]
     pub(super) fn push(&self, pull: [f64; 2], table: [f64; 2]) -> [f64; 2] {
-        let carried = self.asked(table);
+        let carried = self.required_friction(table);
         [pull[0] - carried[0], pull[1] - carried[1]]
     }
 
     /// The force over `M1` that an acceleration asks for.
     #[inline(always)]
-    pub(super) fn asked(&self, acceleration: [f64; 2]) -> [f64; 2] {
+    pub(super) fn required_friction(&self, acceleration: [f64; 2]) -> [f64; 2] {
         self.mass.as_ref().map_or(acceleration, |mass| times(&mass.relative, acceleration))
     }
 

@@ -1,7 +1,7 @@
 //! Which terms of a series are rounding.
 
 use super::nodes::NODES;
-use super::series::{Kind, Series};
+use super::series::{Kind, PlaneSeries};
 use super::system::State;
 use super::vector::norm;
 use crate::linear::polynomial::Polynomial;
@@ -51,7 +51,7 @@ pub(super) struct Sizes {
 }
 
 impl Sizes {
-    pub(super) fn of(series: &Series, scales: &Scales) -> Self {
+    pub(super) fn of(series: &PlaneSeries, scales: &Scales) -> Self {
         let first = |c: &[Polynomial; 2], scale: f64| {
             (0..LOW).fold(scale, |scale, k| scale.max(c[0][k].abs()).max(c[1][k].abs()))
         };
@@ -71,7 +71,7 @@ impl Sizes {
     }
 
     /// The largest term of an order over its size.
-    pub(super) fn term(&self, series: &Series, k: usize) -> f64 {
+    pub(super) fn term(&self, series: &PlaneSeries, k: usize) -> f64 {
         let over = |term: f64, size: f64| if term == 0.0 { 0.0 } else { term / size };
         let pair = |c: &[Polynomial; 2], size: f64| over(c[0][k].abs().max(c[1][k].abs()), size);
         let of_kind = match series.kind {
@@ -86,7 +86,12 @@ impl Sizes {
 
     /// Whether an order and the one before it are negligible.
     #[inline(always)]
-    pub(super) fn are_negligible(&mut self, series: &Series, scales: &Scales, k: usize) -> bool {
+    pub(super) fn are_negligible(
+        &mut self,
+        series: &PlaneSeries,
+        scales: &Scales,
+        k: usize,
+    ) -> bool {
         if !self.is_known {
             *self = Self::of(series, scales);
         }

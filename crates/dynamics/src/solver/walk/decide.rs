@@ -14,7 +14,7 @@
 
 use super::super::course::{AMBIGUOUS, Release};
 use super::super::ground::{Stretch, jump};
-use super::super::phase::{Of, Segment, Straight};
+use super::super::phase::{LinePhase, Of, Segment};
 use super::super::slider::{ROUNDING, Start, falls_below, first_crossing, leading};
 use super::{Line, Walk};
 use crate::error::SolveError;
@@ -42,7 +42,7 @@ struct InForce {
     memory: Memory,
 }
 
-impl<'a, P: Straight<'a> + ?Sized> Walk<'a, P> {
+impl<'a, P: LinePhase<'a> + ?Sized> Walk<'a, P> {
     /// What is rounding of the velocity of an interface at a part of a series: of `Σ |c_k| x^k`, or of the
     /// largest so far.
     #[inline(always)]
@@ -75,7 +75,7 @@ impl<'a, P: Straight<'a> + ?Sized> Walk<'a, P> {
     fn distance(&self, of: Of, i: usize, to: Direction) -> Option<Polynomial> {
         let hold = self.phase.hold(&self.course, i);
         let normal = self.phase.normal(of, i);
-        hold.gives(to).then(|| hold.distance(self.phase.asked(of, i), normal, to))
+        hold.gives(to).then(|| hold.distance(self.phase.required_friction(of, i), normal, to))
     }
 
     /// Whether there is a slider alone, without rigid stops.
@@ -88,7 +88,7 @@ impl<'a, P: Straight<'a> + ?Sized> Walk<'a, P> {
     #[inline(always)]
     pub(super) fn first_release(&self, i: usize, part: f64) -> Option<(f64, Direction)> {
         let (phase, motion) = (&self.phase, Of::Motion);
-        let (asked, [normal, rise]) = (phase.asked(motion, i), phase.normal(motion, i));
+        let (asked, [normal, rise]) = (phase.required_friction(motion, i), phase.normal(motion, i));
         let hold = phase.hold(&self.course, i);
         let hidden = 0.125 * curvature_bound(asked) * (part * part);
         let last = [value(asked, part), normal + rise * part];
@@ -122,7 +122,7 @@ impl<'a, P: Straight<'a> + ?Sized> Walk<'a, P> {
     }
 }
 
-impl<'a, P: Straight<'a>> Walk<'a, P> {
+impl<'a, P: LinePhase<'a>> Walk<'a, P> {
     /// Finds all stuck interfaces that reach their bounds at a part of the series, where one does.
     #[inline(always)]
     pub(super) fn find_released(&mut self, first: Release, part: f64) {
@@ -156,12 +156,13 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
             self.note_before(stretch, at_s, at_sample);
             let hold = self.course.hold(at.place_m);
             self.course.release(&at, &hold, direction, 1);
-            self.phase.enter(&self.course);
+            self.phase.update_branch(&self.course);
             return Some(true);
         }
         if !stopped {
             let hold = self.course.hold(at.place_m);
-            let demand_n = self.phase.demand_n(&hold, [stretch.acceleration_at(at_s), at.normal_n]);
+            let demand_n =
+                self.phase.required_friction_n(&hold, [stretch.acceleration_at(at_s), at.normal_n]);
             let [excess_n, width_n] = hold.excess_and_width_n(demand_n, at.normal_n);
             if excess_n < -AMBIGUOUS * width_n {
                 return Some(false);
@@ -172,20 +173,21 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
             }
             self.note_before(stretch, at_s, at_sample);
             self.course.give_way(&at, demand_n, direction);
-            self.phase.enter(&self.course);
+            self.phase.update_branch(&self.course);
             return Some(true);
         }
         let memory = self.course.slider.memory.clone();
         self.course.slider.settle(at.place_m);
         let hold = self.course.hold(at.place_m);
-        let demand_n = self.phase.demand_n(&hold, [stretch.acceleration_at(at_s), at.normal_n]);
+        let demand_n =
+            self.phase.required_friction_n(&hold, [stretch.acceleration_at(at_s), at.normal_n]);
         if !hold.margin(demand_n, at.normal_n).is_some_and(|margin| margin > AMBIGUOUS) {
             self.course.slider.memory = memory;
             return None;
         }
         self.note_before(stretch, at_s, at_sample);
         self.course.stop(&at, &hold, demand_n, true);
-        self.phase.enter(&self.course);
+        self.phase.update_branch(&self.course);
         Some(true)
     }
 
@@ -300,10 +302,10 @@ impl<'a> Line<'a> {
         let was = self.in_force();
         let margins = self.has_stopped(0).then(|| {
             self.stick(0);
-            self.phase.enter(&self.course);
+            self.phase.update_branch(&self.course);
             self.phase.look_at_instant(&self.course, stretch, at_s);
             let phase = &self.phase;
-            let asked_n = phase.asked(Of::Instant, 0)[0];
+            let asked_n = phase.required_friction(Of::Instant, 0)[0];
             let [normal_n, _] = phase.normal(Of::Instant, 0);
             let holds = [self.hold_at_rest(), phase.hold(&self.course, 0)];
             holds.map(|hold| hold.margin(asked_n, normal_n))
@@ -324,7 +326,7 @@ impl<'a> Line<'a> {
         self.put_in_force(&chosen.in_force);
         self.put_start(&chosen.start);
         self.emit(stretch, at_s, &was);
-        self.phase.enter(&self.course);
+        self.phase.update_branch(&self.course);
         true
     }
 
@@ -336,7 +338,7 @@ impl<'a> Line<'a> {
     fn put_in_force(&mut self, what: &InForce) {
         self.course.set_modes(&what.modes);
         self.course.slider.memory.clone_from(&what.memory);
-        self.phase.enter(&self.course);
+        self.phase.update_branch(&self.course);
     }
 
     fn starts(&self) -> Vec<Option<Start>> {
@@ -388,7 +390,7 @@ impl<'a> Line<'a> {
                 self.choose_from(at, held, &[])
             };
         }
-        let demand = self.phase.asked(Of::Motion, 0)[0];
+        let demand = self.phase.required_friction(Of::Motion, 0)[0];
         if first.holds && first.sticking == held.modes.len() - reached.len() {
             return first;
         }
@@ -477,7 +479,7 @@ impl<'a> Line<'a> {
     /// instant, and the segment after them, take the same.
     fn expand_at(&mut self, (stretch, at_s): (&Stretch, f64)) {
         let unit_s = self.phase.unit_s();
-        self.phase.enter(&self.course);
+        self.phase.update_branch(&self.course);
         self.phase.expand(&self.course, stretch, at_s);
         self.phase.set_unit_s(unit_s);
     }
@@ -487,7 +489,7 @@ impl<'a> Line<'a> {
         let interface = self.course.interface_mut(i);
         (interface.mode, interface.start) = (Mode::Stick, None);
         if i == 0 {
-            let [s, _] = self.phase.place(0);
+            let [s, _] = self.phase.position_and_velocity(0);
             match self.course.near {
                 Some(near) if near.offset > 0.0 => self.course.slider.turn(s, Direction::Positive),
                 Some(near) if near.offset < 0.0 => self.course.slider.turn(s, Direction::Negative),
@@ -500,7 +502,8 @@ impl<'a> Line<'a> {
     fn release(&mut self, Release { interface, direction }: Release) {
         self.course.interface_mut(interface).mode = Mode::Slip(direction);
         if interface == 0
-            && let Some(contact) = self.course.slider.begin(self.phase.place(0)[0], direction)
+            && let Some(contact) =
+                self.course.slider.begin(self.phase.position_and_velocity(0)[0], direction)
         {
             self.course.slider.memory.contact = contact;
         }
@@ -519,7 +522,7 @@ impl<'a> Line<'a> {
                 (Mode::Slip(from), Mode::Slip(to)) if from == to => continue,
                 (Mode::Slip(_), Mode::Slip(_)) => EventKind::Reversal,
             };
-            let [place_m, _] = self.phase.place(i);
+            let [place_m, _] = self.phase.position_and_velocity(i);
             let interface = self.course.interface_mut(i);
             if *before != Mode::Stick {
                 interface.sliding.end(time_s, place_m);
@@ -530,11 +533,11 @@ impl<'a> Line<'a> {
             self.push_event(time_s, i, kind);
             if i == 0 {
                 self.come_to_stop();
-                self.lean(time_s);
+                self.begin_bearing_on_stop(time_s);
             }
         }
         if contact != was.memory.contact {
-            let speed = self.phase.place(0)[1].abs();
+            let speed = self.phase.position_and_velocity(0)[1].abs();
             let kind = self.course.slider.change_contact(time_s, speed, contact);
             self.push_event(time_s, 0, kind);
         }

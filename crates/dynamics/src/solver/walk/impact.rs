@@ -26,8 +26,8 @@ impl<'a> Line<'a> {
         moved[0] = 0.0;
         if let Some(near) = &mut self.course.near {
             near.offset += value(&moved, part);
-            let [_, w] = self.phase.place(0);
-            self.phase.put(0, [near.place + near.offset, w]);
+            let [_, w] = self.phase.position_and_velocity(0);
+            self.phase.set_position_and_velocity(0, [near.place + near.offset, w]);
         }
         self.course.near =
             self.course.near.filter(|near| near.offset.abs() <= 1e-3 * near.place.abs());
@@ -62,31 +62,31 @@ impl<'a> Line<'a> {
     /// The block rests at a stop.
     fn stop_at(&mut self, place: f64) {
         self.course.near = None;
-        let [_, w] = self.phase.place(0);
-        self.phase.put(0, [place, w]);
+        let [_, w] = self.phase.position_and_velocity(0);
+        self.phase.set_position_and_velocity(0, [place, w]);
     }
 
     /// Begins or ends the time at rest at a rigid stop.
-    pub(in crate::solver) fn lean(&mut self, time_s: f64) {
-        self.end_leaning(time_s);
+    pub(in crate::solver) fn begin_bearing_on_stop(&mut self, time_s: f64) {
+        self.end_bearing_on_stop(time_s);
         let is_stuck = self.course.block.mode == Mode::Stick;
-        if is_stuck && self.phase.hold(&self.course, 0).leans != [false; 2] {
-            self.leans_since_s = Some(time_s);
+        if is_stuck && self.phase.hold(&self.course, 0).bears_on_stop != [false; 2] {
+            self.bears_on_stop_since_s = Some(time_s);
         }
     }
 
-    pub(in crate::solver) fn end_leaning(&mut self, time_s: f64) {
-        if let Some(since_s) = self.leans_since_s.take() {
+    pub(in crate::solver) fn end_bearing_on_stop(&mut self, time_s: f64) {
+        if let Some(since_s) = self.bears_on_stop_since_s.take() {
             self.course.slider.stopping.demands.contact_time_s += time_s - since_s;
         }
     }
 
     /// Where friction takes all of the push against a rigid stop, or no longer does.
     #[inline(never)]
-    pub(super) fn first_lean(&mut self, part: f64) -> Option<f64> {
+    pub(super) fn first_change_of_bearing(&mut self, part: f64) -> Option<f64> {
         let beyond = self.phase.beyond_friction(&self.course);
         let mut sides: Vec<Polynomial> = beyond.into_iter().map(|(_, beyond)| beyond).collect();
-        if core::mem::take(&mut self.leant) {
+        if core::mem::take(&mut self.bearing_changed) {
             let least = sides.iter().fold(f64::INFINITY, |least, p| least.min(p[0].abs()));
             sides.iter_mut().filter(|p| p[0].abs() <= least).for_each(|p| p[0] = 0.0);
         }
@@ -104,7 +104,7 @@ impl<'a> Line<'a> {
     pub(super) fn strike(&mut self, stretch: &Stretch, at_s: f64, direction: Direction) {
         let time_s = self.ground.times_s[stretch.interval] + at_s;
         let Some(e) = self.course.slider.law.restitution() else { return };
-        let [place, before] = self.phase.place(0);
+        let [place, before] = self.phase.position_and_velocity(0);
         let fast = before.abs() >= SLOWEST_IMPACT_M_PER_S;
         let turn = self.turn.take();
         if !fast && let Some(turn) = turn {
@@ -146,12 +146,12 @@ impl<'a> Line<'a> {
     /// Gives the block another velocity; floors and contents keep their absolute velocities.
     fn jump(&mut self, time_s: f64, before: f64, after: f64) {
         let velocities = |walk: &Self| -> Vec<f64> {
-            (0..walk.course.interfaces()).map(|i| walk.phase.place(i)[1]).collect()
+            (0..walk.course.interfaces()).map(|i| walk.phase.position_and_velocity(i)[1]).collect()
         };
         let was = velocities(self);
-        let [s, _] = self.phase.place(0);
-        self.phase.put(0, [s, after]);
-        self.phase.strike(before - after);
+        let [s, _] = self.phase.position_and_velocity(0);
+        self.phase.set_position_and_velocity(0, [s, after]);
+        self.phase.apply_impulse(before - after);
         for (i, (was, now)) in was.into_iter().zip(velocities(self)).enumerate().skip(1) {
             // What is on another floor moves on as before.
             if was == now {
@@ -169,7 +169,7 @@ impl<'a> Line<'a> {
                 Mode::Slip(_) => EventKind::Reversal,
                 Mode::Stick => EventKind::Slip,
             };
-            let [place, _] = self.phase.place(i);
+            let [place, _] = self.phase.position_and_velocity(i);
             let interface = self.course.interface_mut(i);
             if interface.mode != Mode::Stick {
                 interface.sliding.end(time_s, place);
@@ -184,7 +184,7 @@ impl<'a> Line<'a> {
         self.stop_at(place);
         self.stick(0);
         self.push_event(time_s, 0, EventKind::Rest);
-        self.lean(time_s);
+        self.begin_bearing_on_stop(time_s);
     }
 
     /// Whether infinitely many bounces are left, all below rounding.
@@ -192,7 +192,7 @@ impl<'a> Line<'a> {
     /// With `P` and `Q` the accelerations towards the stop on the way in and out, speeds shrink by
     /// `r = e √(P/Q)` a bounce and `T∞ = (w⁺/Q) (1 + √(Q/P)) / (1 − r)`.
     fn comes_to_rest(&mut self, stretch: &Stretch, at_s: f64, inward: Direction, e: f64) -> bool {
-        let [s, w] = self.phase.place(0);
+        let [s, w] = self.phase.position_and_velocity(0);
         let speed = w.abs();
         let (away, memory) = (self.course.block.mode, self.course.slider.memory.clone());
         let q = inward.sign() * self.acceleration_at(stretch, at_s);
@@ -201,7 +201,7 @@ impl<'a> Line<'a> {
         slider.law.resume(&mut slider.memory, 0.0, inward);
         let p = inward.sign() * self.acceleration_at(stretch, at_s);
         (self.course.block.mode, self.course.slider.memory) = (away, memory);
-        self.phase.enter(&self.course);
+        self.phase.update_branch(&self.course);
         if !(p > 0.0 && q > 0.0) {
             return false;
         }
@@ -216,7 +216,7 @@ impl<'a> Line<'a> {
 
     /// Acceleration of the block over the ground at an instant.
     fn acceleration_at(&mut self, stretch: &Stretch, at_s: f64) -> f64 {
-        self.phase.enter(&self.course);
+        self.phase.update_branch(&self.course);
         self.phase.look_at_instant(&self.course, stretch, at_s);
         self.phase.acceleration(Of::Instant, 0)[0]
     }

@@ -2,12 +2,12 @@
 
 use super::super::course::{Instant, Release};
 use super::super::ground::Stretch;
-use super::super::phase::{Segment, Straight};
+use super::super::phase::{LinePhase, Segment};
 use super::{Events, Line, Walk};
 use crate::error::SolveError;
 use crate::linear::polynomial::{Polynomial, derivative, first_root, first_root_after_zero, value};
 use crate::response::{EventKind, Mode};
-use crate::slider::{Direction, Exit, Reached};
+use crate::slider::{BranchEnd, Direction, Exit};
 
 /// Why a segment ends before the series does.
 #[derive(Clone, Copy, Debug)]
@@ -19,10 +19,10 @@ pub(super) enum End {
     /// An interface that sticks reaches its bound.
     Release(Release),
     /// Friction takes all of a push against a rigid stop from here on, or no longer does.
-    Lean,
+    BearingOnStop,
 }
 
-impl<'a, P: Straight<'a>> Events for Walk<'a, P> {
+impl<'a, P: LinePhase<'a>> Events for Walk<'a, P> {
     /// One segment, up to its end or the first event in it; the time reached.
     #[inline(always)]
     fn segment(&mut self, stretch: &Stretch, from_s: f64) -> Result<f64, SolveError> {
@@ -33,8 +33,8 @@ impl<'a, P: Straight<'a>> Events for Walk<'a, P> {
         }
         self.follow(segment.part, end);
         match end {
-            Some(End::Lean) => {
-                self.leant = true;
+            Some(End::BearingOnStop) => {
+                self.bearing_changed = true;
                 self.record(stretch, segment.to_s, false);
             }
             Some(End::Exit(exit)) => self.line().reach(stretch, segment.to_s, exit.reached)?,
@@ -44,7 +44,7 @@ impl<'a, P: Straight<'a>> Events for Walk<'a, P> {
     }
 
     /// Whether something waits to be decided: a stop or what has reached its bound.
-    fn is_due(&self) -> bool {
+    fn has_pending_decision(&self) -> bool {
         !self.course.released.is_empty() || self.has_any_stopped()
     }
 
@@ -68,22 +68,22 @@ impl<'a, P: Straight<'a>> Events for Walk<'a, P> {
     }
 
     /// Looks at the outputs under loads that stand.
-    fn look_beside_jump(&mut self, stretch: &Stretch) {
+    fn peaks_at_jump(&mut self, stretch: &Stretch) {
         let segment = self.phase.expand(&self.course, stretch, 0.0).up_to(0.0);
         self.phase.move_to(0.0);
         self.phase.look(&mut self.course, stretch, &segment);
     }
 
     fn begin(&mut self) {
-        self.line().lean(0.0);
+        self.line().begin_bearing_on_stop(0.0);
     }
 
     fn end(&mut self, end_s: f64) {
-        self.line().end_leaning(end_s);
+        self.line().end_bearing_on_stop(end_s);
     }
 }
 
-impl<'a, P: Straight<'a>> Walk<'a, P> {
+impl<'a, P: LinePhase<'a>> Walk<'a, P> {
     /// As what is done now and then sees it.
     pub(super) fn line(&mut self) -> &mut Line<'a> {
         self
@@ -95,7 +95,7 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
         let starts =
             (0..self.course.interfaces()).any(|i| self.course.interface(i).start.is_some());
         self.course.released.is_empty()
-            && !self.leant
+            && !self.bearing_changed
             && self.course.slider.just.is_none()
             && !starts
     }
@@ -153,8 +153,8 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
                 take(Some(at), End::Release(Release { interface: i, direction }));
             }
         }
-        if self.leans_since_s.is_some() && !self.walks_jump {
-            take(self.line().first_lean(segment.part), End::Lean);
+        if self.bears_on_stop_since_s.is_some() && !self.walks_jump {
+            take(self.line().first_change_of_bearing(segment.part), End::BearingOnStop);
         }
         first
     }
@@ -185,7 +185,7 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
     pub(super) fn of_exit(&self, exit: &Exit, [s, w]: [&Polynomial; 2]) -> Polynomial {
         let mut p: Polynomial = core::array::from_fn(|k| exit.of_s * s[k] + exit.of_w * w[k]);
         p[0] += exit.constant;
-        if let Reached::Wall(_, place) = exit.reached
+        if let BranchEnd::Wall(_, place) = exit.reached
             && let Some(near) = self.course.near.filter(|near| near.place == place)
         {
             p[0] = exit.of_s * near.offset;
@@ -210,7 +210,7 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
     pub(super) fn stop_within_rounding(&mut self, part: f64) {
         for i in 0..self.course.interfaces() {
             let Mode::Slip(direction) = self.course.mode(i) else { continue };
-            let here = direction.sign() * self.phase.place(i)[1];
+            let here = direction.sign() * self.phase.position_and_velocity(i)[1];
             if here <= 0.0 || self.is_within_rounding(i, here, part) {
                 self.stand(i);
             }
@@ -226,7 +226,7 @@ impl<'a, P: Straight<'a>> Walk<'a, P> {
     }
 }
 
-impl<'a, P: Straight<'a> + ?Sized> Walk<'a, P> {
+impl<'a, P: LinePhase<'a> + ?Sized> Walk<'a, P> {
     /// Whether any does.
     pub(super) fn has_any_stopped(&self) -> bool {
         (0..self.course.interfaces()).any(|i| self.has_stopped(i))
@@ -236,14 +236,16 @@ impl<'a, P: Straight<'a> + ?Sized> Walk<'a, P> {
     #[inline(always)]
     pub(in crate::solver) fn has_stopped(&self, i: usize) -> bool {
         let interface = self.course.interface(i);
-        interface.mode != Mode::Stick && interface.start.is_none() && self.phase.place(i)[1] == 0.0
+        interface.mode != Mode::Stick
+            && interface.start.is_none()
+            && self.phase.position_and_velocity(i)[1] == 0.0
     }
 
     /// An interface has come to a halt.
     #[inline(always)]
     pub(super) fn stand(&mut self, i: usize) {
-        let [place, _] = self.phase.place(i);
-        self.phase.put(i, [place, 0.0]);
+        let [place, _] = self.phase.position_and_velocity(i);
+        self.phase.set_position_and_velocity(i, [place, 0.0]);
     }
 
     /// The present state of the slider so long after the first sample of an interval.
@@ -251,7 +253,7 @@ impl<'a, P: Straight<'a> + ?Sized> Walk<'a, P> {
     pub(super) fn instant(&self, stretch: &Stretch, at_s: f64) -> Instant {
         Instant {
             time_s: self.ground.times_s[stretch.interval] + at_s,
-            place_m: self.phase.place(0)[0],
+            place_m: self.phase.position_and_velocity(0)[0],
             normal_n: stretch.normal_at(at_s),
             mass_kg: self.phase.block_kg(),
         }
@@ -265,20 +267,20 @@ impl<'a> Line<'a> {
         &mut self,
         stretch: &Stretch,
         at_s: f64,
-        reached: Reached,
+        reached: BranchEnd,
     ) -> Result<(), SolveError> {
         let Mode::Slip(direction) = self.course.block.mode else { return Ok(()) };
         let time_s = self.ground.times_s[stretch.interval] + at_s;
         self.course.near = None;
-        let place = reached.place(direction, self.phase.place(0));
-        self.phase.put(0, place);
+        let place = reached.place(direction, self.phase.position_and_velocity(0));
+        self.phase.set_position_and_velocity(0, place);
         self.record(stretch, at_s, false);
         match self.course.slider.follow(reached, direction, time_s, place) {
             Some(kind) => self.push_event(time_s, 0, kind),
-            None if matches!(reached, Reached::Wall(..)) => self.strike(stretch, at_s, direction),
+            None if matches!(reached, BranchEnd::Wall(..)) => self.strike(stretch, at_s, direction),
             None => self.course.events_in_interval += 1,
         }
-        self.phase.enter(&self.course);
+        self.phase.update_branch(&self.course);
         self.note_ends(time_s)?;
         self.record(stretch, at_s, false);
         Ok(())
@@ -288,7 +290,7 @@ impl<'a> Line<'a> {
         if interface == 0 {
             self.turn = (kind == EventKind::Reversal).then_some(self.course.events.len());
         }
-        let [place_m, _] = self.phase.place(interface);
+        let [place_m, _] = self.phase.position_and_velocity(interface);
         self.course.push_of(interface, [time_s, place_m], kind);
     }
 }

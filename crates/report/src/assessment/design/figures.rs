@@ -8,7 +8,7 @@ use crate::assessment::lines::{dots, line, panel, single, stacked};
 use crate::display::Unit;
 use crate::figures::Drawn;
 use crate::number::compact;
-use crate::plot::{Axis, Series, Shape, Style, contour, levels};
+use crate::plot::{Axis, PlotSeries, Shape, Style, contour, levels};
 
 impl DesignReport<'_> {
     pub(super) fn figures(&self) -> Vec<Drawn> {
@@ -32,7 +32,7 @@ impl DesignReport<'_> {
                 ("upper friction", "#767676", |b| &b.upper),
             ] {
                 let points: Vec<[f64; 2]> = bounded.iter().map(|b| at(pick(b))).collect();
-                series.push(Series {
+                series.push(PlotSeries {
                     style: Style { colour: "#b3541e", width: 0.7, dashes: "" },
                     ..designs(label, fill, points)
                 });
@@ -137,8 +137,8 @@ const LINES: usize = 8;
 
 /// The lines of a level, and its name on the longest of them.
 fn add_lines(
-    series: &mut Vec<Series>,
-    names: &mut Vec<Series>,
+    series: &mut Vec<PlotSeries>,
+    names: &mut Vec<PlotSeries>,
     map: &DesignMap,
     values: &[f64],
     level: f64,
@@ -150,17 +150,17 @@ fn add_lines(
     if let Some(longest) = longest.filter(|line| line.len() > 2) {
         // Not all in the middle: names of neighbours would stand on each other.
         let place = longest[(longest.len() * (1 + names.len() % 3)) / 4];
-        names.push(Series { label: name, style, shape: Shape::Named, points: vec![place] });
+        names.push(PlotSeries { label: name, style, shape: Shape::Named, points: vec![place] });
     }
     series.extend(lines.into_iter().map(|points| line("", style, points)));
 }
 
 /// A ring around the chosen design.
-fn ring(at: Option<[f64; 2]>) -> Series {
+fn ring(at: Option<[f64; 2]>) -> PlotSeries {
     let style = Style { colour: "#a3161c", width: 3.2, dashes: "" };
     dots("chosen", style, "none", at.into_iter().collect())
 }
 
-fn designs(label: &str, fill: &'static str, points: Vec<[f64; 2]>) -> Series {
+fn designs(label: &str, fill: &'static str, points: Vec<[f64; 2]>) -> PlotSeries {
     dots(label, Style { colour: "#0b3c6f", width: 0.9, dashes: "" }, fill, points)
 }

@@ -8,7 +8,7 @@ use slipstick::notice::{Notice, NoticeKind};
 use slipstick::response::DemandColumn;
 
 use super::{HistoriesReport, SHOWN};
-use crate::assessment::sheet::{Table, cell};
+use crate::assessment::sheet::{SheetTable, cell};
 use crate::display::Quantity;
 
 /// Something that isolators, or what stands on them, can take.
@@ -25,7 +25,7 @@ struct Capacity {
 impl HistoriesReport<'_> {
     /// What the isolators and what stands on them can take, beside what is asked of it, and how many runs go
     /// beyond; none for a model without gap, ends of travel, stop or contents.
-    pub(super) fn capacity(&self, model: &ModelHistories) -> Option<Table> {
+    pub(super) fn capacity(&self, model: &ModelHistories) -> Option<SheetTable> {
         let statistic = format!("Demand, {}", model.statistic());
         let heads = ["", &statistic, "Friction", "Capacity", "Used (%)", "Runs beyond"];
         let rows: Vec<Vec<String>> =
@@ -245,7 +245,7 @@ pub(super) fn milder_than_code(factors: PropertyFactors) -> Option<Notice> {
 }
 
 /// Property modification factors and their products.
-pub(super) fn factor_table(factors: &PropertyFactors) -> Table {
+pub(super) fn factor_table(factors: &PropertyFactors) -> SheetTable {
     let bounds = factors.bounds();
     let [least, most] = factors.products();
     let row =

@@ -14,7 +14,7 @@ use crate::display::DisplayUnits;
 use crate::figures::Drawn;
 use crate::json::{each, pretty};
 use crate::number::compact;
-use crate::plot::{Axis, Series, Style};
+use crate::plot::{Axis, PlotSeries, Style};
 use crate::view;
 
 /// What an incremental dynamic analysis of one or several designs is told from.
@@ -213,7 +213,7 @@ impl Groups<'_> {
         };
         let top = self.reports.iter().map(points).fold(0.0, f64::max);
         let ends = [x_end, if top > 0.0 { 1.05 * top } else { 1.0 }];
-        let mut series: Vec<Series> = Vec::new();
+        let mut series: Vec<PlotSeries> = Vec::new();
         for report in self.reports {
             for curve in report.curves {
                 let points = curve.levels.iter().zip(&curve.demands);
