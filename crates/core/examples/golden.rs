@@ -106,6 +106,7 @@ fn model(storeys: usize, stiffness_n_per_m: f64) -> Result<Model, Box<dyn std::e
         Block { mass_kg: 325.0, width_m: None, height_m: None },
         Slider {
             tilt_rad: 0.001,
+            tilt_y_rad: 0.0,
             ..Slider::sprung(
                 Friction::by_direction([0.06, 0.05], [0.045, 0.04])?,
                 stiffness_n_per_m,

@@ -269,6 +269,14 @@ impl Model {
         Some(floors.collect())
     }
 
+    /// One over the overturning moment along x and y that the weight resists about an edge, `M_tot g width/2`, in
+    /// 1/(N m), where both widths are given and heights are.
+    pub(crate) fn per_resisted_moment_in_plane(&self) -> Option<[f64; 2]> {
+        self.lever_arms()?;
+        let widths_m = [self.block.width_m?, self.along_y.as_ref()?.width_m?];
+        Some(widths_m.map(|width_m| 1.0 / (0.5 * width_m * self.weight_n())))
+    }
+
     /// Height of a floor above the one below or of a point above the one before it, in m, where it is known.
     #[must_use]
     pub fn rise_m(&self, point: usize) -> Option<f64> {
@@ -369,24 +377,46 @@ impl Model {
                 ..initial
             };
             let structure = structure.along([x, y])?;
-            let slider = self.slider.clone();
+            let slider = self.slider.turned_to([x, y]);
             return Self::with_modes(block, slider, structure, self.gravity_m_per_s2, initial).ok();
         }
         let is_same = model.frame.stiffnesses_n_per_m == other.frame.stiffnesses_n_per_m
             && (model.frame.damping == other.frame.damping || self.storeys() == 0);
-        let frame = model.frame.clone();
-        (is_axis || is_same).then(|| Self { block, frame, initial, along_y: None, ..self.clone() })
+        let (frame, slider) = (model.frame.clone(), self.slider.turned_to([x, y]));
+        (is_axis || is_same).then(|| Self {
+            block,
+            slider,
+            frame,
+            initial,
+            along_y: None,
+            ..self.clone()
+        })
+    }
+
+    /// A rigid block of all its mass on [one surface](Slider::as_one_surface) that does what its slider does, of a model with
+    /// surfaces in series or contents, which two directions do not take; none of other models.
+    #[must_use]
+    pub fn simple_in_plane(&self) -> Option<Self> {
+        if self.slider.series().is_none() && self.contents.is_empty() {
+            return None;
+        }
+        let block = Block { mass_kg: self.total_mass_kg(), width_m: None, height_m: None };
+        let (slider, start) = (self.slider.as_one_surface()?, InitialState::rest());
+        Self::new(block, slider, Frame::none(), self.gravity_m_per_s2, start).ok()
     }
 
     /// This model turned so that what is along y is along x.
     pub fn turned_to_y(&self) -> Self {
         let AlongY { stiffnesses_n_per_m, damping, width_m, initial } = self.along_y();
         let block = Block { width_m, ..self.block };
+        let Slider { tilt_rad, tilt_y_rad, .. } = self.slider;
+        let slider = Slider { tilt_rad: tilt_y_rad, tilt_y_rad: tilt_rad, ..self.slider.clone() };
         if self.structure.is_some() {
-            return Self { block, initial, along_y: None, ..self.clone() };
+            return Self { block, slider, initial, along_y: None, ..self.clone() };
         }
         Self {
             block,
+            slider,
             frame: Frame { stiffnesses_n_per_m, damping, ..self.frame.clone() },
             initial,
             along_y: None,
@@ -500,10 +530,16 @@ impl Model {
         self.gravity_m_per_s2 * libm::sin(self.slider.tilt_rad)
     }
 
+    /// The same along x and along y, towards −x and −y.
+    #[must_use]
+    pub fn slope_in_plane_m_per_s2(&self) -> [f64; 2] {
+        self.slider.slope_sines().map(|sine| self.gravity_m_per_s2 * sine)
+    }
+
     /// `g cos θ` in m/s²: what presses the block on the surface at rest.
     #[must_use]
     pub fn normal_gravity_m_per_s2(&self) -> f64 {
-        self.gravity_m_per_s2 * libm::cos(self.slider.tilt_rad)
+        self.gravity_m_per_s2 * self.slider.slope_cosine()
     }
 
     /// What presses the block on the surface without vertical motion, in N.
@@ -591,6 +627,23 @@ impl Model {
         q
     }
 
+    /// Displacements at t = 0 in m of the [oscillators](Structure::oscillators_in_plane) of a structure by its modes: as
+    /// given along y, else those that the slope's pull holds at rest; none of a frame.
+    #[must_use]
+    pub fn initial_oscillators_in_plane_m(&self) -> Vec<f64> {
+        if let Some(q) = self.along_y.as_ref().and_then(|y| y.initial.storey_displacement_m.clone())
+        {
+            return q;
+        }
+        let [x, y] = self.slope_in_plane_m_per_s2();
+        let modes = self.structure.as_ref().map(Structure::oscillators_in_plane);
+        let of_mode = |mode: OscillatorInPlane| {
+            let omega = mode.frequency_rad_per_s;
+            0.0 - (x * mode.direction[0] + y * mode.direction[1]) / (omega * omega)
+        };
+        modes.into_iter().flatten().map(of_mode).collect()
+    }
+
     /// Storey velocities at t = 0 in m/s: as given, else 0.
     #[must_use]
     pub fn initial_storey_velocity_m_per_s(&self) -> Vec<f64> {
@@ -626,7 +679,29 @@ fn each(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::slider::Direction;
+    use crate::slider::{Direction, Surface, SurfacesInSeries};
+
+    /// `φ = (s + Σ μ R)/Σ R` where all slide, and the friction of a flat surface where there is one.
+    #[test]
+    fn surfaces_that_all_slide_are_one() {
+        let surface = |radius_m, friction| Surface { radius_m, friction, travel_m: Some(0.1) };
+        let one = |surfaces| {
+            let series = SurfacesInSeries::new(surfaces, 1.5).unwrap();
+            let block = Block { mass_kg: 700.0, width_m: Some(1.0), height_m: None };
+            let slider = Slider::in_series(series);
+            let whole = Model::new(block, slider, Frame::none(), 9.81, InitialState::rest());
+            let simple = whole.unwrap().simple_in_plane().unwrap();
+            assert_eq!(simple.total_mass_kg(), 700.0);
+            simple.slider().clone()
+        };
+        let pendulum = one(vec![surface(Some(1.0), 0.25), surface(Some(3.0), 0.5)]);
+        let friction = Friction::new(1.5 * 0.4375, 0.4375).unwrap();
+        assert_eq!(pendulum, Slider::pendulum(friction, 4.0));
+        let flat = one(vec![surface(Some(1.0), 0.25), surface(None, 0.5)]);
+        assert_eq!(flat, Slider::new(Friction::new(0.75, 0.5).unwrap()));
+        let plain = Model::rigid_block(9.0, Friction::new(0.2, 0.1).unwrap()).unwrap();
+        assert_eq!(plain.simple_in_plane(), None);
+    }
 
     fn with(stop: Stop) -> Result<Model, ModelError> {
         let friction = Friction::new(0.2, 0.1).unwrap();

@@ -459,7 +459,7 @@ pub struct Demands {
     /// Peak sliding displacement over the gap, where one is given.
     pub gap_ratio: Option<f64>,
     /// Largest overturning moment about the sliding surface over `M_tot g width/2`, where width and
-    /// heights are given.
+    /// heights are given. Of two directions together `|r_x| + |r_y|` of both ratios at one instant, at its largest.
     pub overturning_ratio: Option<f64>,
     /// Of the stop, where the model has one.
     pub stop: Option<StopDemands>,

@@ -92,8 +92,10 @@ pub struct Slider {
     pub bearing: Bearing,
     /// Damper `C1` between table and block in N s/m, 0 without one.
     pub damper_n_s_per_m: f64,
-    /// Tilt θ of the surface in rad, positive uphill towards +x.
+    /// Tilt of the surface in rad, positive uphill towards +x: the angle that its x axis makes with the horizontal.
     pub tilt_rad: f64,
+    /// Angle of the y axis of the surface with the horizontal, uphill towards +y.
+    pub tilt_y_rad: f64,
     /// What is at the ends of its travel.
     pub ends: Ends,
 }
@@ -183,7 +185,7 @@ impl From<Option<Stop>> for Ends {
 impl Slider {
     fn on(bearing: Bearing) -> Self {
         let ends = Ends::Open { gap_m: None };
-        Self { bearing, damper_n_s_per_m: 0.0, tilt_rad: 0.0, ends }
+        Self { bearing, damper_n_s_per_m: 0.0, tilt_rad: 0.0, tilt_y_rad: 0.0, ends }
     }
 
     /// Friction alone on a level surface: no spring, damper, gap or stop.
@@ -233,9 +235,59 @@ impl Slider {
             Ends::Open { gap_m } => optional_positive("slider gap_m", *gap_m)?,
             Ends::Stop(stop) => stop.check()?,
         }
-        let tilt_rad = self.tilt_rad;
-        let is_within = tilt_rad.abs() < core::f64::consts::FRAC_PI_2;
-        in_range("slider tilt_rad", "a tilt between −π/2 and π/2", tilt_rad, is_within)
+        for (quantity, tilt_rad) in
+            [("slider tilt_rad", self.tilt_rad), ("slider tilt_y_rad", self.tilt_y_rad)]
+        {
+            let is_within = tilt_rad.abs() < core::f64::consts::FRAC_PI_2;
+            in_range(quantity, "a tilt between −π/2 and π/2", tilt_rad, is_within)?;
+        }
+        let (expected, cosine) = ("tilts of a surface that is not upright", self.slope_cosine());
+        in_range("slider tilt_y_rad", expected, self.tilt_y_rad, cosine > 0.0)
+    }
+
+    /// `sin θ` along x and along y: what of gravity pulls towards −x and −y in the surface.
+    #[must_use]
+    pub fn slope_sines(&self) -> [f64; 2] {
+        [self.tilt_rad, self.tilt_y_rad].map(libm::sin)
+    }
+
+    /// The cosine of the angle between the surface's normal and the vertical: `√(1 − sin²θ_x − sin²θ_y)`, as both axes
+    /// lie in the surface and are at right angles to one another.
+    #[must_use]
+    pub fn slope_cosine(&self) -> f64 {
+        match (self.tilt_rad, self.tilt_y_rad) {
+            (tilt_rad, 0.0) | (0.0, tilt_rad) => libm::cos(tilt_rad),
+            _ => {
+                let [x, y] = self.slope_sines();
+                (1.0 - x * x - y * y).max(0.0).sqrt()
+            }
+        }
+    }
+
+    /// How steep the surface is: the tangent of the angle between its normal and the vertical.
+    #[must_use]
+    pub fn steepness(&self) -> f64 {
+        match (self.tilt_rad, self.tilt_y_rad) {
+            (tilt_rad, 0.0) | (0.0, tilt_rad) => libm::tan(tilt_rad).abs(),
+            _ => {
+                let [x, y] = self.slope_sines();
+                libm::hypot(x, y) / self.slope_cosine()
+            }
+        }
+    }
+
+    /// This slider turned so that what is along a direction, given by its cosine and sine, is along x: of a surface
+    /// that rises along it alone.
+    pub(crate) fn turned_to(&self, [x, y]: [f64; 2]) -> Self {
+        let tilt_rad = match [x, y] {
+            [1.0, 0.0] => self.tilt_rad,
+            [0.0, 1.0] => self.tilt_y_rad,
+            _ => {
+                let [of_x, of_y] = self.slope_sines();
+                libm::asin((x * of_x + y * of_y).clamp(-1.0, 1.0))
+            }
+        };
+        Self { tilt_rad, tilt_y_rad: 0.0, ..self.clone() }
     }
 
     /// The friction of one surface.
@@ -293,6 +345,32 @@ impl Slider {
         }
     }
 
+    /// One surface without ends that does what these do when all slide: of surfaces in series with radii a pendulum of the
+    /// sum of these, `φ = (s + Σ μ R)/Σ R` over the normal force; with a flat one friction alone, of the least of those.
+    /// None where friction is not the same in all directions.
+    #[must_use]
+    pub fn as_one_surface(&self) -> Option<Self> {
+        let ends = Ends::Open { gap_m: None };
+        let Some(series) = self.series() else {
+            let one = Self { ends, ..self.clone() };
+            return one.isotropic(1.0).is_ok().then_some(one);
+        };
+        let surfaces = series.surfaces();
+        let flat = surfaces.iter().filter(|surface| surface.radius_m.is_none());
+        let flat = flat.map(|surface| surface.friction).reduce(f64::min);
+        let sum = |of: fn(&Surface) -> f64| surfaces.iter().map(of).sum::<f64>();
+        let radius_m = sum(|surface| surface.radius_m.unwrap_or(0.0));
+        let weighted = sum(|surface| surface.radius_m.unwrap_or(0.0) * surface.friction);
+        let mu = flat.unwrap_or(weighted / radius_m);
+        let friction = Friction::new(series.static_ratio() * mu, mu).ok()?;
+        let one = match flat {
+            Some(_) => Self::new(friction),
+            None => Self::pendulum(friction, radius_m),
+        };
+        let Self { damper_n_s_per_m, tilt_rad, tilt_y_rad, .. } = *self;
+        Some(Self { damper_n_s_per_m, tilt_rad, tilt_y_rad, ends, ..one })
+    }
+
     /// The least displacement in m beyond which the isolators cannot or are not meant to go, and what is there: the
     /// end of their travel, a stop, or the gap that the detailing allows.
     #[must_use]
@@ -313,9 +391,9 @@ impl Slider {
     pub fn held(&self, coefficient: f64, normal_n: f64) -> Result<Self, ModelError> {
         let friction = Friction::new(coefficient, coefficient)?;
         let ends = self.stop().copied().into();
-        let Self { damper_n_s_per_m, tilt_rad, .. } = *self;
+        let Self { damper_n_s_per_m, tilt_rad, tilt_y_rad, .. } = *self;
         let sprung = Self::sprung(friction, self.stiffness_n_per_m(normal_n));
-        Ok(Self { damper_n_s_per_m, tilt_rad, ends, ..sprung })
+        Ok(Self { damper_n_s_per_m, tilt_rad, tilt_y_rad, ends, ..sprung })
     }
 
     /// Static and kinetic coefficients towards +x and −x: of friction by the speed that at rest, of
@@ -434,6 +512,7 @@ impl Slider {
         alike
             && self.damper_n_s_per_m == other.damper_n_s_per_m
             && self.tilt_rad == other.tilt_rad
+            && self.tilt_y_rad == other.tilt_y_rad
             && self.stop() == other.stop()
     }
 }

@@ -53,8 +53,10 @@ pub fn model_line(model: &Model, display: DisplayUnits) -> String {
             parts.push(format!("{name} {}", value(display, quantity, si)));
         }
     }
-    if slider.tilt_rad != 0.0 {
-        parts.push(format!("tilt {} mrad", compact(1e3 * slider.tilt_rad)));
+    for (name, tilt_rad) in [("tilt", slider.tilt_rad), ("tilt along y", slider.tilt_y_rad)] {
+        if tilt_rad != 0.0 {
+            parts.push(format!("{name} {} mrad", compact(1e3 * tilt_rad)));
+        }
     }
     if let Some(gap_m) = slider.gap_m() {
         parts.push(format!("gap {}", value(display, Quantity::Length, gap_m)));
@@ -199,6 +201,10 @@ pub fn model_rows(model: &Model, display: DisplayUnits) -> Vec<(&'static str, St
             tilt_rad => format!("{} mrad", compact(1e3 * tilt_rad)),
         },
     ));
+    if slider.tilt_y_rad != 0.0 {
+        let tilt = format!("{} mrad", compact(1e3 * slider.tilt_y_rad));
+        rows.push(("Tilt θ_y, uphill towards +y", tilt));
+    }
     match slider.stop() {
         None => {
             let gap = slider.gap_m().map_or("not given".into(), |gap| show(Quantity::Length, gap));

@@ -403,8 +403,11 @@ fn expressible(model: &Model, motion: &GroundMotion) -> Result<SliderElement, Ch
         let expected = "none beside surfaces in series under vertical motion";
         return no("contents", expected, "contents");
     }
-    if slider.tilt_rad != 0.0 {
-        return no("slider.tilt", "a level surface", &format!("{} rad", slider.tilt_rad));
+    for (key, tilt_rad) in [("slider.tilt", slider.tilt_rad), ("slider.tilt_y", slider.tilt_y_rad)]
+    {
+        if tilt_rad != 0.0 {
+            return no(key, "a level surface", &format!("{tilt_rad} rad"));
+        }
     }
     let start_y = model.along_y().initial;
     let rests = motion.horizontal_y_m_per_s2().is_none() || start_y == InitialState::rest();

@@ -256,13 +256,25 @@ fn pairs_at_once_are_models_with_two_records() {
 #[test]
 fn pairs_of_a_model_in_one_direction() {
     let folder = folder("histories-one-direction", 2);
-    let model = folder.read("plain.toml").replace("[slider]\n", "[slider]\ntilt = \"1 mrad\"\n");
-    folder.write("tilted.toml", &model);
-    let run = ["run", "tilted.toml", "--records", "records/r0.csv", "--second", "records/r1.csv"];
+    let model = folder.read("plain.toml").replace("[slider]\n", "[slider]\nasymmetry = 0.1\n");
+    folder.write("uneven.toml", &model);
+    let run = ["run", "uneven.toml", "--records", "records/r0.csv", "--second", "records/r1.csv"];
     let refused = folder.refused(&run);
-    assert!(refused.contains("slider.tilt: expected a model that is solved in two"), "{refused}");
+    assert!(
+        refused.contains("slider.asymmetry: expected a model that is solved in two"),
+        "{refused}"
+    );
     assert!(refused.contains("pairs = separate"), "{refused}");
     folder.stdout(&[&run[..], &["--pairs", "separate"]].concat());
+    // What cannot be run in two directions says what each axis by itself leaves out.
+    let contents = "\n[[contents]]\nfloor = 0\nmass = \"1 kg\"\nstatic_friction = 0.3\nkinetic_friction = 0.3\n";
+    folder.write("contents.toml", folder.read("plain.toml") + contents);
+    let run = ["run", "contents.toml", "--records", "records/r0.csv", "--second", "records/r1.csv"];
+    assert!(folder.refused(&run).contains("contents: expected a model that is solved in two"));
+    folder.stdout(&[&run[..], &["--pairs", "separate", "--out", "apart"]].concat());
+    let page = folder.read("apart/report.html");
+    assert!(page.contains("cannot be run in two directions"), "{page}");
+    assert!(page.contains("times as far under both components at once"), "{page}");
     // What speaks of y waits for pairs, and is refused under one component.
     let wide = folder.read("plain.toml").replace("[slider]", "width_y = \"2 m\"\n[slider]");
     folder.write("wide.toml", &wide);

@@ -3,10 +3,12 @@
 
 pub mod alone;
 pub mod floors;
+pub mod left_out;
 pub mod over_suite;
 pub mod profiles;
 
 use self::alone::{ALONE, Alone};
+use self::left_out::LeftOut;
 use super::floors::FloorSpectra;
 use super::lateral::LateralForce;
 use super::single::{Job, Judged, Outcome};
@@ -147,6 +149,8 @@ pub struct ModelHistories {
     /// Of each bound the displacement of the equivalent-lateral-force procedure under the target spectrum,
     /// where there is one of both.
     pub lateral: Vec<Option<LateralForce>>,
+    /// What running components by themselves leaves out, of a model that cannot be run under both.
+    pub left_out: Option<LeftOut>,
 }
 
 /// What came of all models.
@@ -381,7 +385,9 @@ pub fn run_histories(
             },
             bounds,
             records,
+            left_out: None,
         };
+        of_model.left_out = left_out::of(model, &of_model);
         of_model.governing_history = governing_history(model, &of_model, engine);
         done.push(of_model);
     }

@@ -471,5 +471,6 @@ fn same_structure(a: &Model, b: &Model) -> bool {
         && a.structure() == b.structure()
         && a.gravity_m_per_s2() == b.gravity_m_per_s2()
         && a.slider().tilt_rad == b.slider().tilt_rad
+        && a.slider().tilt_y_rad == b.slider().tilt_y_rad
         && a.initial() == b.initial()
 }

@@ -112,7 +112,8 @@ fn slider(
     total_mass_kg: f64,
     gravity_m_per_s2: f64,
 ) -> Result<Slider, InputError> {
-    let tilt_rad = values.number("slider.tilt").unwrap_or(0.0);
+    let [tilt_rad, tilt_y_rad] =
+        ["slider.tilt", "slider.tilt_y"].map(|path| values.number(path).unwrap_or(0.0));
     let bearing = match series(values)? {
         Some(series) => Bearing::InSeries(series),
         None => Bearing::Surface {
@@ -124,8 +125,8 @@ fn slider(
         Some(stop) => Ends::Stop(stop),
         None => Ends::Open { gap_m: values.number("slider.gap") },
     };
-    let slider = Slider { bearing, damper_n_s_per_m: 0.0, tilt_rad, ends };
-    let normal_n = total_mass_kg * (gravity_m_per_s2 * libm::cos(tilt_rad));
+    let slider = Slider { bearing, damper_n_s_per_m: 0.0, tilt_rad, tilt_y_rad, ends };
+    let normal_n = total_mass_kg * (gravity_m_per_s2 * slider.slope_cosine());
     let stiffness_n_per_m = slider.stiffness_n_per_m(normal_n);
     if slider.radius_m().is_some() {
         derived(values, "slider.radius", "stiffness M_tot g cos θ / R", stiffness_n_per_m)?;
@@ -480,11 +481,9 @@ fn initial(values: &Values, storeys: usize) -> Result<[InitialState; 2], InputEr
 /// Refuses what is not solved in two directions.
 fn refuse_in_plane(values: &Values) -> Result<(), InputError> {
     let mut keys = vec![
-        "slider.tilt",
         "slider.asymmetry",
         "slider.static_friction.positive",
         "slider.kinetic_friction.positive",
-        "slider.kinetic_friction.velocity",
         "slider.stop",
         "slider.surface",
         "slider.triple",
@@ -495,8 +494,8 @@ fn refuse_in_plane(values: &Values) -> Result<(), InputError> {
     }
     match keys.into_iter().find(|path| values.has(path)) {
         Some(path) => {
-            let expected = "a model that is solved in two directions: one level surface whose \
-                            friction is the same in all directions, constant or exponential, without \
+            let expected = "a model that is solved in two directions: one surface whose \
+                            friction is the same in all directions, without \
                             stop or contents, by the exact method";
             let apart = ", or the components of pairs run by themselves, pairs = separate";
             let apart = if values.in_plane { apart } else { "" };
@@ -509,7 +508,7 @@ fn refuse_in_plane(values: &Values) -> Result<(), InputError> {
 /// The model's objection at the key that caused it.
 fn model_error(values: &Values, error: &ModelError) -> InputError {
     // What the constructors call a quantity, and the keys that it may come from.
-    const KEYS: [(&str, &[&str]); 36] = [
+    const KEYS: [(&str, &[&str]); 37] = [
         ("block mass_kg", &["block.mass", "block.weight"]),
         ("block width_m", &["block.width"]),
         ("block width_y_m", &["block.width_y"]),
@@ -521,6 +520,7 @@ fn model_error(values: &Values, error: &ModelError) -> InputError {
         ("stop stiffness_n_per_m", &["slider.stop.stiffness"]),
         ("stop damper_n_s_per_m", &["slider.stop.damper", "slider.stop.damping_ratio"]),
         ("slider tilt_rad", &["slider.tilt"]),
+        ("slider tilt_y_rad", &["slider.tilt_y"]),
         ("gravity_m_per_s2", &["analysis.gravity"]),
         ("structure mass_kg", &["structure.mass", "structure.weight"]),
         ("structure mode points", &["structure.point"]),

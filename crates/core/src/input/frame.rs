@@ -51,7 +51,7 @@ pub(super) fn frame(values: &Values, gravity_m_per_s2: f64) -> Result<Frame, Inp
 pub(super) fn key_of_y(values: &Values, storeys: usize) -> Option<String> {
     let of_storey =
         |i| STIFFNESS.iter().chain(&DAMPING).map(move |name| key(i, &format!("{name}_y")));
-    let all = ["block.width_y", "frame.period_y"].into_iter().map(str::to_owned);
+    let all = ["block.width_y", "slider.tilt_y", "frame.period_y"].into_iter().map(str::to_owned);
     all.chain((1..=storeys).flat_map(of_storey)).find(|path| values.has(path))
 }
 

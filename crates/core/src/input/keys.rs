@@ -156,7 +156,13 @@ static SLIDER: Section = Section {
         Key::optional(
             "tilt",
             Kind::Quantity(Angle, Range::Tilt),
-            "Tilt of the sliding surface, positive uphill towards +x.",
+            "Tilt of the sliding surface, positive uphill towards +x: the angle that its x axis makes with the \
+             horizontal.",
+        ),
+        Key::optional(
+            "tilt_y",
+            Kind::Quantity(Angle, Range::Tilt),
+            "The same along y, positive uphill towards +y; default 0.",
         ),
         Key::optional(
             "asymmetry",

@@ -37,7 +37,7 @@ impl ModelKind {
                 !model.contents().is_empty(),
                 slider.series().is_some(),
                 slider.rate().is_some(),
-                slider.tilt_rad != 0.0,
+                slider.tilt_rad != 0.0 || slider.tilt_y_rad != 0.0,
             ],
             rigid_stop: model.stop().map(|stop| matches!(stop.kind, StopKind::Rigid { .. })),
         }

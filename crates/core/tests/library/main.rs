@@ -24,6 +24,8 @@ mod nasty;
 mod networks;
 mod orders;
 mod plane;
+mod plane_lines;
+mod plane_slope;
 mod pressure;
 mod properties;
 mod records;

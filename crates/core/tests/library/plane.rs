@@ -5,15 +5,15 @@
 // tests do; a seed from outside to look for more.
 #![allow(clippy::disallowed_macros, clippy::disallowed_methods, clippy::expect_used)]
 
-use crate::common::random_in_plane::{Random, System, libm_sin};
+use crate::common::random_in_plane::{Random, Restoring, System, libm_sin};
 use slipstick::check::check;
-use slipstick::model::{InitialState, Model, Slider};
+use slipstick::model::{AlongY, Block, InitialState, Model};
 use slipstick::response::{Demands, EventKind, Response};
 use slipstick::slider::{Friction, RateCurve, RateLaw};
 use slipstick::solver::{Prepared, PreparedMotion, exact};
 
 /// Every figure of resultants over the peak of its kind.
-fn differences(a: &Demands, b: &Demands) -> Vec<(&'static str, f64)> {
+pub fn differences(a: &Demands, b: &Demands) -> Vec<(&'static str, f64)> {
     let over = |x: f64, y: f64, scale: f64| {
         if x == y { 0.0 } else { (x - y).abs() / scale.abs().max(1e-300) }
     };
@@ -60,7 +60,7 @@ fn kinds(response: &Response) -> Vec<EventKind> {
 }
 
 /// Whether two responses agree; the worst figure, or what is different.
-fn agree(a: &Response, b: &Response) -> Result<f64, String> {
+pub fn agree(a: &Response, b: &Response) -> Result<f64, String> {
     if kinds(a) != kinds(b) {
         return Err(format!("{} and {} events", kinds(a).len(), kinds(b).len()));
     }
@@ -79,7 +79,7 @@ fn seeds(usual: u64) -> core::ops::Range<u64> {
 }
 
 /// Compares each system with what is made of it, for all seeds.
-fn all_agree(what: &str, equal: bool, of: impl Fn(u64, &System) -> (Response, Response)) {
+pub fn all_agree(what: &str, equal: bool, of: impl Fn(u64, &System) -> (Response, Response)) {
     let (mut wrong, mut worst, mut count) = (Vec::new(), 0.0_f64, 0);
     for seed in seeds(60) {
         let (a, b) = of(seed, &System::random(seed, equal));
@@ -93,7 +93,7 @@ fn all_agree(what: &str, equal: bool, of: impl Fn(u64, &System) -> (Response, Re
     assert!(wrong.is_empty(), "{} of {count}:\n{}", wrong.len(), wrong.join("\n"));
 }
 
-fn turned(angle: f64) -> impl Fn([f64; 2]) -> [f64; 2] {
+pub fn turned(angle: f64) -> impl Fn([f64; 2]) -> [f64; 2] {
     let (sine, cosine) = (libm_sin(angle), libm_sin(angle + core::f64::consts::FRAC_PI_2));
     move |[x, y]| [cosine * x - sine * y, sine * x + cosine * y]
 }
@@ -151,9 +151,12 @@ fn prop_motion_along_a_line_is_motion_in_one_direction() {
 }
 
 /// Whether the figures by axis are parts of the resultant, and all is said as in two directions.
-fn is_on_a_line(seed: u64, response: &Response, along: [f64; 2]) {
+pub fn is_on_a_line(seed: u64, response: &Response, along: [f64; 2]) {
     let (d, plane) = (&response.demands, response.in_plane.as_deref().expect("two directions"));
-    assert_eq!((d.reversal_count, d.overturning_ratio), (0, None), "seed {seed}");
+    assert_eq!(d.reversal_count, 0, "seed {seed}");
+    let by_axis = plane.axes.each_ref().map(|axis| axis.overturning_ratio.unwrap_or(0.0));
+    let ratio = d.overturning_ratio.expect("widths and heights");
+    assert!((ratio - by_axis[0] - by_axis[1]).abs() <= 1e-15 * ratio, "seed {seed}");
     assert!(d.residual_sliding_displacement_m >= 0.0, "seed {seed}");
     let reverses = response.events.iter().any(|event| event.kind == EventKind::Reversal);
     assert!(!reverses, "seed {seed}");
@@ -386,23 +389,64 @@ fn prop_systems_of_one_coefficient_are_certified() {
     }
 }
 
+/// A block that is held, h = 0.4 m on 0.5 m by 0.8 m: `r = h a/(g b)` along each axis, and `|r_x| + |r_y|` at its corners, where both
+/// are at one instant.
+#[test]
+fn a_base_is_lifted_at_a_corner_by_both_axes_at_once() {
+    let mut system = System::random(1, true);
+    (system.floors_kg, system.stiffnesses) = (Vec::new(), [Vec::new(), Vec::new()]);
+    (system.friction, system.by_speed, system.vertical) = ([0.9, 0.8], None, None);
+    (system.initial, system.slider) = ([[0.0; 2]; 2], Restoring::Flat);
+    system.times_s = (0..5).map(f64::from).collect();
+    // At 1 s along x alone, at 2 s along both, at 3 s along −y alone.
+    system.table = [vec![0.0, 3.0, -2.0, 0.0, 0.0], vec![0.0, 0.0, 1.6, -2.0, 0.0]];
+    let model = system.model();
+    let block = Block { width_m: Some(0.5), ..*model.block() };
+    let along_y = AlongY { width_m: Some(0.8), ..model.along_y() };
+    let model = Model::new(
+        block,
+        model.slider().clone(),
+        model.frame().clone(),
+        9.80665,
+        InitialState::rest(),
+    )
+    .and_then(|model| model.with_along_y(along_y))
+    .expect("a model");
+    let response = exact(&model, &system.motion()).expect("a response");
+    let c = check(&model, &system.motion(), &response);
+    assert!(c.holds(), "{c:?}");
+    let of = |x: f64, y: f64| 0.4 / 9.80665 * (x / 0.5 + y / 0.8);
+    let plane = response.in_plane.as_deref().expect("two directions");
+    let found = [&response.demands, &plane.axes[0], &plane.axes[1]]
+        .map(|demands| demands.overturning_ratio.expect("widths and a height"));
+    for (found, expected) in found.into_iter().zip([of(3.0, 0.0), of(3.0, 0.0), of(0.0, 2.0)]) {
+        assert!((found - expected).abs() <= 1e-15, "{found} {expected}");
+    }
+    // With more along y at 2 s the corner is what is lifted first.
+    system.table[1][2] = 1.9;
+    let response = exact(&model, &system.motion()).expect("a response");
+    let found = response.demands.overturning_ratio.expect("a ratio");
+    assert!((found - of(2.0, 1.9)).abs() <= 1e-15 && of(2.0, 1.9) > of(3.0, 0.0), "{found}");
+    let c = check(&model, &system.motion(), &response);
+    assert!(c.holds(), "{c:?}");
+    let mut tampered = response.clone();
+    tampered.demands.overturning_ratio = Some(of(3.0, 0.0));
+    assert!(check(&model, &system.motion(), &tampered).demands_error > 1e-3);
+}
+
 #[test]
 fn what_does_not_move_in_two_directions_is_refused() {
     let system = System::random(1, true);
     let model = system.model();
-    let slider = Slider { tilt_rad: 0.01, ..model.slider().clone() };
-    let tilted =
-        Model::new(*model.block(), slider, model.frame().clone(), 9.8, InitialState::rest());
-    let error = exact(&tilted.expect("a model"), &system.motion()).expect_err("a tilt");
-    assert_eq!(error.to_string(), "two horizontal directions: expected a model without tilt");
-
+    let refused = |friction: Friction| {
+        let error = exact(&model.with_friction(friction), &system.motion());
+        error.expect_err("a refusal").to_string()
+    };
+    let expected = "two horizontal directions: expected a model without friction by direction";
+    let uneven = Friction::by_direction([0.06; 2], [0.05, 0.04]).expect("friction");
+    assert_eq!(refused(uneven), expected);
     let speeds_m_per_s = vec![0.0, 0.1];
     let pieces = RateCurve::Pieces { speeds_m_per_s, coefficients: vec![0.05, 0.08] };
-    let law = RateLaw::new(pieces, [1.0; 2]).expect("a law");
-    let friction = Friction::by_speed([0.06; 2], law).expect("friction");
-    let error = exact(&model.with_friction(friction), &system.motion()).expect_err("pieces");
-    assert_eq!(
-        error.to_string(),
-        "two horizontal directions: expected a model without friction by straight lines of the speed"
-    );
+    let law = RateLaw::new(pieces, [1.0, 0.9]).expect("a law");
+    assert_eq!(refused(Friction::by_speed([0.06; 2], law).expect("friction")), expected);
 }

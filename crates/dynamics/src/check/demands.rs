@@ -75,6 +75,17 @@ pub(super) struct Recomputed<'a> {
     /// What a gap ratio and an overturning ratio are asked of.
     pub(super) gap_m: Option<f64>,
     pub(super) width_m: Option<f64>,
+    /// Of both axes together, in place of a width.
+    pub(super) corner: Option<Corner>,
+}
+
+/// The overturning ratio of a base at its corners.
+#[derive(Clone, Copy)]
+pub(super) struct Corner {
+    /// Least and largest that it may be.
+    pub(super) ratio: [f64; 2],
+    /// What a moment along both axes makes of it, in 1/(N m).
+    pub(super) per_n_m: f64,
 }
 
 impl Recomputed<'_> {
@@ -315,10 +326,14 @@ fn of_peaks(
     c.optional(d.gap_ratio, ratio, near_m / own.gap_m.unwrap_or(1.0));
     let width_m = own.width_m.filter(|_| own.outputs.has_moment());
     let moment = width_m.map(|width_m| 0.5 * width_m * weight_n);
-    let ratio = moment.map(|moment| over(Output::Overturning, moment));
+    let (ratio, per_n_m) = match (own.corner, moment) {
+        (Some(Corner { ratio: [least, most], per_n_m }), _) => (Some([least, most, most]), per_n_m),
+        (None, Some(moment)) => (Some(over(Output::Overturning, moment)), 1.0 / moment),
+        (None, None) => (None, 1.0),
+    };
     let near = own.outputs.height_m(model) * force_n;
     c.of("overturning_ratio");
-    c.optional(d.overturning_ratio, ratio, near / moment.unwrap_or(1.0));
+    c.optional(d.overturning_ratio, ratio, near * per_n_m);
 }
 
 fn of_contents(

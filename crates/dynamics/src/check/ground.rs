@@ -67,21 +67,21 @@ pub(super) struct Ground<'a> {
 
 impl<'a> Ground<'a> {
     pub(super) fn new(model: &Model, motion: &'a GroundMotion, end_s: f64) -> Self {
-        Self::of(model, motion, motion.horizontal_m_per_s2(), end_s)
+        Self::of(model, motion, (motion.horizontal_m_per_s2(), model.slope_m_per_s2()), end_s)
     }
 
-    /// The ground of one horizontal component.
+    /// The ground of one horizontal component, with the slope's pull along it.
     pub(super) fn of(
         model: &Model,
         motion: &'a GroundMotion,
-        horizontal: &'a [f64],
+        (horizontal, slope): (&'a [f64], f64),
         end_s: f64,
     ) -> Self {
         let mut ground = Self {
             times_s: motion.times_s(),
             horizontal,
             vertical: motion.vertical_m_per_s2(),
-            slope: model.slope_m_per_s2(),
+            slope,
             gravity: model.normal_gravity_m_per_s2(),
             total_kg: model.total_mass_kg(),
             follows_pressure: model

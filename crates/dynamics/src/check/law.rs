@@ -217,10 +217,18 @@ impl Law {
         match &self.rate {
             Some(rate) => {
                 let factor = rate.factor(Direction::Positive);
-                [rate.coefficient(speed_m_per_s), rate.fading_slope_s_per_m(speed_m_per_s)]
+                [rate.coefficient(speed_m_per_s), rate.slope_s_per_m(speed_m_per_s)]
                     .map(|own| factor * own)
             }
             None => [self.kinetic[0], 0.0],
+        }
+    }
+
+    /// Whether there is no kinetic friction at any speed.
+    pub(super) fn has_no_kinetic(&self) -> bool {
+        match &self.rate {
+            Some(rate) => rate.is_none(),
+            None => self.kinetic == [0.0; 2],
         }
     }
 

@@ -222,6 +222,7 @@ impl<'a> Directions for Judge<'a, Line<'a>> {
             events: &self.events,
             gap_m: self.model.slider().gap_m(),
             width_m: self.model.block().width_m,
+            corner: None,
         };
         demands::of_motion(c, (self.model, self.response, h), &own, rounding);
         demands::of_peak_time(c, &self.response.demands, h, sliding_m[0], rounding);

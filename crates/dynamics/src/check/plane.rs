@@ -24,7 +24,7 @@ use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::progress::{Cancel, Pulse};
 use crate::response::{History, HistoryAlongY, Response};
-use crate::slider::{Direction, RateCurve, RateLaw};
+use crate::slider::{Direction, RateLaw};
 use frame::{Pair, PlaneFrame, cross, norm, unit};
 use judge::PlaneJudge;
 
@@ -74,7 +74,6 @@ fn is_within(model: &Model) -> bool {
         && slider.series().is_none()
         && model.stop().is_none()
         && model.contents().is_empty()
-        && model.slope_m_per_s2() == 0.0
 }
 
 /// The direction of the line through rest that all of a motion and of the start is on, where a model with this frame
@@ -85,17 +84,23 @@ fn line_of(model: &Model, table: (&[f64], &[f64])) -> Option<Pair> {
         model.frame(),
         [model.initial_storey_displacement_m(), model.initial_storey_velocity_m_per_s()],
     );
-    let of_y = |list: &Option<Vec<f64>>| list.clone().unwrap_or_else(|| vec![0.0; q.len()]);
-    let (own_q, own_v) =
-        (of_y(&y.initial.storey_displacement_m), of_y(&y.initial.storey_velocity_m_per_s));
+    let along_y = model.turned_to_y();
+    let (own_q, own_v) = match model.structure() {
+        Some(_) => (Vec::new(), Vec::new()),
+        None => {
+            (along_y.initial_storey_displacement_m(), along_y.initial_storey_velocity_m_per_s())
+        }
+    };
     let initial = [x, &y.initial]
         .map(|initial| [[initial.sliding_displacement_m], [initial.sliding_velocity_m_per_s]]);
-    let kinds: [(&[f64], &[f64]); 5] = [
+    let slope = model.slope_in_plane_m_per_s2().map(|pull| [pull]);
+    let kinds: [(&[f64], &[f64]); 6] = [
         table,
         (&initial[0][0], &initial[1][0]),
         (&initial[0][1], &initial[1][1]),
         (&q, &own_q),
         (&v, &own_v),
+        (&slope[0], &slope[1]),
     ];
     let mut line: Option<Pair> = None;
     for (x, y) in kinds {
@@ -114,10 +119,10 @@ fn line_of(model: &Model, table: (&[f64], &[f64])) -> Option<Pair> {
     (model.structure().is_none() && (is_axis || is_alike)).then_some(line)
 }
 
-/// Whether friction by speed is exponential, and the same both ways.
+/// Whether friction by speed is the same both ways.
 fn fades_alike(rate: &RateLaw) -> bool {
     let [factor, other] = Direction::BOTH.map(|way| rate.factor(way));
-    matches!(rate.curve(), RateCurve::Exponential { .. }) && factor == other
+    factor == other
 }
 
 /// What is stored along x and along y: at every knot the table's acceleration, `s`, `ṡ`, the block's acceleration

@@ -22,6 +22,15 @@ pub(super) struct RateFriction {
     factors: [f64; 2],
 }
 
+/// A straight line of `μ_k` between two speeds: `μ + slope (|w| − from)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct SpeedLine {
+    pub(super) from: f64,
+    pub(super) mu: f64,
+    pub(super) slope: f64,
+    pub(super) to: f64,
+}
+
 impl RateFriction {
     /// The law of a model that has one.
     pub(super) fn new(model: &Model) -> Option<Self> {
@@ -54,14 +63,42 @@ impl RateFriction {
         if self.drop == 0.0 { mu } else { mu - self.faded(speed_m_per_s) }
     }
 
-    /// `dμ_k/d|ṡ|` of the exponential in s/m, for a factor of 1.
-    pub(super) fn fading_slope_s_per_m(&self, speed_m_per_s: f64) -> f64 {
-        self.rate_s_per_m * self.faded(speed_m_per_s)
+    /// `dμ_k/d|ṡ|` in s/m, for a factor of 1; at a corner of the line above it.
+    pub(super) fn slope_s_per_m(&self, speed_m_per_s: f64) -> f64 {
+        let within = |[from, width, _]: &&[f64; 3]| (*from..from + width).contains(&speed_m_per_s);
+        let of_line = self.pieces.iter().find(within).map_or(0.0, |piece| piece[2]);
+        of_line + self.rate_s_per_m * self.faded(speed_m_per_s)
     }
 
     /// `(μ_fast − μ_slow) exp(−α |ṡ|)`.
     fn faded(&self, speed_m_per_s: f64) -> f64 {
         self.drop * libm::exp(-self.rate_s_per_m * speed_m_per_s)
+    }
+
+    /// The straight line of `μ_k` on which a speed that grows or falls lies, where there are such: `v_i`, `μ_i` and the
+    /// slope, and between which speeds. A speed is at a corner within this part of it.
+    pub(super) fn line(&self, speed_m_per_s: f64, grows: bool, near: f64) -> Option<SpeedLine> {
+        let last = self.pieces.last()?;
+        let mut line =
+            SpeedLine { from: last[0] + last[1], mu: 0.0, slope: 0.0, to: f64::INFINITY };
+        for &[from, width, slope] in &self.pieces {
+            let end = from + width;
+            let margin = if grows { -near * end } else { near * end };
+            if speed_m_per_s < end + margin {
+                line = SpeedLine { from, mu: 0.0, slope, to: end };
+                break;
+            }
+        }
+        let factor = self.factors[0];
+        line.mu = factor * self.coefficient(line.from);
+        line.slope *= factor;
+        Some(line)
+    }
+
+    /// Whether it is 0 at every speed.
+    pub(super) fn is_none(&self) -> bool {
+        let corners = self.pieces.iter().map(|[from, width, _]| from + width);
+        corners.chain([0.0, 1.0]).all(|speed| self.coefficient(speed) == 0.0)
     }
 
     /// The straight piece of `μ_k` in which two speeds lie, for a factor of 1: between which speeds, and

@@ -44,6 +44,7 @@ pub struct ModelBuilder {
     restoring: Restoring,
     damper_n_s_per_m: f64,
     tilt_rad: f64,
+    tilt_y_rad: f64,
     gap_m: Option<f64>,
     stop: Option<Stop>,
     frame: Frame,
@@ -68,6 +69,7 @@ impl Model {
             restoring: Restoring::None,
             damper_n_s_per_m: 0.0,
             tilt_rad: 0.0,
+            tilt_y_rad: 0.0,
             gap_m: None,
             stop: None,
             frame: Frame::none(),
@@ -177,6 +179,12 @@ impl ModelBuilder {
     /// Tilt of the surface, positive uphill towards +x.
     pub fn tilt(mut self, tilt: &str) -> Self {
         self.tilt_rad = self.read("tilt", tilt, Dimension::Angle);
+        self
+    }
+
+    /// Tilt of the surface along y, positive uphill towards +y.
+    pub fn tilt_y(mut self, tilt: &str) -> Self {
+        self.tilt_y_rad = self.read("tilt_y", tilt, Dimension::Angle);
         self
     }
 
@@ -304,8 +312,8 @@ impl ModelBuilder {
             None => return Err(missing("storey damping", "a ratio or dampers")),
         };
         let block = Block { mass_kg, width_m: self.block_width_m, height_m: self.block_height_m };
-        let (damper_n_s_per_m, tilt_rad) = (self.damper_n_s_per_m, self.tilt_rad);
-        let slider = Slider { bearing, damper_n_s_per_m, tilt_rad, ends };
+        let Self { damper_n_s_per_m, tilt_rad, tilt_y_rad, .. } = self;
+        let slider = Slider { bearing, damper_n_s_per_m, tilt_rad, tilt_y_rad, ends };
         let frame = Frame { damping, ..self.frame };
         Model::new(block, slider, frame, self.gravity_m_per_s2, self.initial)?
             .with_contents(self.contents)

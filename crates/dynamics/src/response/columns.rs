@@ -111,16 +111,19 @@ impl HistoryAlongY {
     pub fn slider_force_n(&self, along_x: &History, model: &Model, knot: usize) -> [f64; 2] {
         let block = [&along_x.block_acceleration_m_per_s2, &self.block_acceleration_m_per_s2]
             .map(|a| a[knot]);
+        let slope = model.slope_in_plane_m_per_s2();
         let Some(structure) = model.structure() else {
             let n = along_x.storeys;
             let own = &self.storey_acceleration_m_per_s2[knot * n..(knot + 1) * n];
             let floors = [along_x.storey_accelerations(knot), own].map(|floors| {
                 model.frame().masses_kg.iter().zip(floors).map(|(m, a)| m * a).sum::<f64>()
             });
-            return [0, 1].map(|axis| -(model.block().mass_kg * block[axis] + floors[axis]));
+            let pull = |axis: usize| model.total_mass_kg() * slope[axis];
+            let own = |axis: usize| model.block().mass_kg * block[axis] + floors[axis];
+            return [0, 1].map(|axis| -(own(axis) + pull(axis)));
         };
         // M_tot b + Σ m (a − ℓ·b) ℓ, with the accelerations a of the oscillators along their directions ℓ.
-        let mut inertia = block.map(|b| model.total_mass_kg() * b);
+        let mut inertia = [0, 1].map(|k| model.total_mass_kg() * (block[k] + slope[k]));
         let oscillators = structure.oscillators_in_plane();
         for (mode, a) in oscillators.iter().zip(along_x.storey_accelerations(knot)) {
             let [x, y] = mode.direction;

@@ -384,8 +384,7 @@ pub static DEMANDS: [Demand; 49] = [
         .in_study(3)
         .of_resultant(),
     Demand::ratio("overturning_ratio", "overturning ratio", |d, _| d.overturning_ratio)
-        .row(43, "Overturning ratio")
-        .by_axis(),
+        .row(43, "Overturning ratio"),
     Demand::ratio("closest_stop", "closest stop", |d, _| d.closest_stop)
         .not_in_summary()
         .of_resultant(),

@@ -113,6 +113,13 @@ pub(super) struct Ground<'a> {
     pub(super) sampling: &'a Sampling,
 }
 
+/// The ground along y.
+#[derive(Clone, Copy)]
+pub(super) struct GroundAlongY<'a> {
+    pub(super) table: &'a [f64],
+    pub(super) acceleration: &'a [f64],
+}
+
 /// `M_tot (g cos θ + Üv)` at the samples, negative where contact is lost; or one value.
 #[derive(Clone, Copy)]
 pub(super) enum Normal<'a> {

@@ -34,7 +34,7 @@ use self::system::{Loads, State};
 use self::terms::Scales;
 use self::vector::{inner, norm};
 use super::course::{self, WalkState};
-use super::ground::{Ground, Stretch};
+use super::ground::{Ground, GroundAlongY, Stretch};
 use super::phase::{Advance, Phase};
 use super::slider::leading;
 use super::walk::{Events, Walk};
@@ -59,8 +59,7 @@ const SLIP: Mode = Mode::Slip(Direction::Positive);
 /// State, series and peaks of an analysis in two horizontal directions.
 pub(super) struct Plane<'a> {
     ground: Ground<'a>,
-    /// `Ü_y` at the samples.
-    table_y: &'a [f64],
+    along_y: GroundAlongY<'a>,
     system: System,
     state: State,
     /// Of friction: that of the last velocity, where there is none.
@@ -96,7 +95,7 @@ pub(super) struct Plane<'a> {
 impl<'a> Plane<'a> {
     fn new(
         (system, state): (System, State),
-        (ground, table_y): (Ground<'a>, &'a [f64]),
+        (ground, along_y): (Ground<'a>, GroundAlongY<'a>),
         instructions: InstructionSet,
         with_history: bool,
     ) -> Self {
@@ -107,12 +106,12 @@ impl<'a> Plane<'a> {
         let again_s = ground.sampling.dt_s.map(|dt_s| system.within_reach(dt_s));
         Self {
             ground,
-            table_y,
+            along_y,
             direction: if speed > 0.0 { state.w.map(|w| w / speed) } else { [0.0; 2] },
             starts: false,
             is_released: false,
             peak_speed: speed,
-            speed_scale: OF_TABLE * largest_velocity(ground.times_s, [ground.table, table_y]),
+            speed_scale: OF_TABLE * largest_velocity(ground.times_s, [ground.table, along_y.table]),
             next_s: f64::INFINITY,
             near_s: f64::INFINITY,
             is_near_rest: false,
@@ -136,7 +135,7 @@ impl<'a> Plane<'a> {
 
     /// Loads of a stretch from a time on.
     fn loads(&self, stretch: &Stretch, at_s: f64) -> Loads {
-        let (times_s, y, i) = (self.ground.times_s, self.table_y, stretch.interval);
+        let (times_s, y, i) = (self.ground.times_s, self.along_y.acceleration, stretch.interval);
         // Loads of an interval without length, or beyond the last, stand.
         let length_s = times_s.get(i + 1).map_or(0.0, |next_s| next_s - times_s[i]);
         let y_rate = if length_s > 0.0 { (y[i + 1] - y[i]) * (1.0 / length_s) } else { 0.0 };
@@ -206,14 +205,16 @@ impl<'a> Plane<'a> {
     fn record_knot(&mut self, mode: Mode, [time_s, x, y]: [f64; 3], normal_n: f64, row: bool) {
         let Some(recorder) = &mut self.recorder else { return };
         let (system, table) = (&self.system, [x, y]);
-        let loads = Loads { table: table.map(|a| [a, 0.0]), normal: [normal_n, 0.0] };
+        let slope = system.slope;
+        let pulled = |k: usize| [table[k] + slope[k], 0.0];
+        let loads = Loads { table: [pulled(0), pulled(1)], normal: [normal_n, 0.0] };
         let at = Instant::new(system, &self.state, &loads, &mut self.g);
         let (block, friction_n) = match mode {
             Mode::Stick => (table, at.push.map(|p| -system.block_kg * p)),
             Mode::Slip(_) => {
                 let taken = self.direction.map(|u| at.friction * u);
                 let block = system.moved([at.pull[0] - taken[0], at.pull[1] - taken[1]]);
-                (block, taken.map(|f| -system.block_kg * f))
+                ([block[0] - slope[0], block[1] - slope[1]], taken.map(|f| -system.block_kg * f))
             }
         };
         let State { s, w, eta, rate } = &self.state;
@@ -264,7 +265,7 @@ impl<'a> Phase<'a> for Plane<'a> {
     fn record_sample(&mut self, course: &WalkState<'a>, sample: usize, row: bool) {
         let ground = &self.ground;
         let normal_n = ground.normal_at(sample).max(0.0);
-        let knot = [ground.times_s[sample], ground.table[sample], self.table_y[sample]];
+        let knot = [ground.times_s[sample], ground.table[sample], self.along_y.table[sample]];
         self.record_knot(course.block.mode, knot, normal_n, row);
     }
 
@@ -276,7 +277,8 @@ impl<'a> Phase<'a> for Plane<'a> {
         row: bool,
     ) {
         let loads = self.loads(stretch, at_s);
-        let [_, [table_y, _]] = loads.table;
+        let [_, [pulled_y, _]] = loads.table;
+        let table_y = pulled_y - self.system.slope[1];
         self.record_knot(course.block.mode, [time_s, table, table_y], loads.normal[0], row);
     }
 }

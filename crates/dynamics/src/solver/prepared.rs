@@ -4,7 +4,7 @@ use core::mem::take;
 use std::sync::Arc;
 
 use super::course::{Sliding, WalkState};
-use super::ground::{Ground, Normal, Sampling, contact_loss_s, varying_normal};
+use super::ground::{Ground, GroundAlongY, Normal, Sampling, contact_loss_s, varying_normal};
 use super::modal::{Buffers, Modal};
 use super::phase::Phase;
 use super::recorder::{self, Recorder};
@@ -254,7 +254,17 @@ fn solve_in_plane(
     let system = tables.in_plane(model)?;
     let varying: Option<Vec<f64>> = varying_normal(model, motion).map(Iterator::collect);
     let normal = Normal::new(model, varying.as_deref());
-    let ground = level(motion, normal, sampling);
+    let slope = model.slope_in_plane_m_per_s2();
+    let sloped = [0, 1].map(|axis| {
+        let table = [motion.horizontal_m_per_s2(), y][axis];
+        let add = |pull: f64| table.iter().map(|a| a + pull).collect::<Vec<f64>>();
+        (slope[axis] != 0.0).then(|| add(slope[axis]))
+    });
+    let [of_x, of_y] = sloped.each_ref().map(Option::as_deref);
+    let table = motion.horizontal_m_per_s2();
+    let acceleration = of_x.unwrap_or(table);
+    let ground = Ground { times_s: motion.times_s(), table, acceleration, normal, sampling };
+    let along_y = GroundAlongY { table: y, acceleration: of_y.unwrap_or(y) };
     if let Some((direction, line)) = plane::on_line(model, motion) {
         let along = motion.along(direction);
         let tables = tables_of(&line, sampling.dt_s);
@@ -264,7 +274,7 @@ fn solve_in_plane(
             solve_along_x(instructions, &line, &tables, (&along, sampling), how, workspace)?;
         let line = &line;
         let on_line =
-            plane::OnLine { direction, model, line, system, ground, table_y: y, instructions };
+            plane::OnLine { direction, model, line, system, ground, along_y, instructions };
         return Ok(on_line.turned(response, with_history));
     }
     let masses = 1.0 + model.degrees_in_plane() as f64;
@@ -275,13 +285,7 @@ fn solve_in_plane(
     }
     recorder::fits(model, 2 * motion.len())?;
     let how = (with_history, Pulse::new(go_on));
-    plane::solve((model, system), (ground, y), instructions, how)
-}
-
-/// The ground on a level surface, along x.
-fn level<'a>(motion: &'a GroundMotion, normal: Normal<'a>, sampling: &'a Sampling) -> Ground<'a> {
-    let table = motion.horizontal_m_per_s2();
-    Ground { times_s: motion.times_s(), table, acceleration: table, normal, sampling }
+    plane::solve((model, system), (ground, along_y), instructions, how)
 }
 
 fn solve_along_x(

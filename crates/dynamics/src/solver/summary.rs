@@ -112,13 +112,13 @@ pub(super) fn warnings(
     let tilt_rad = model.slider().tilt_rad;
     let downhill = if tilt_rad > 0.0 { Direction::Negative } else { Direction::Positive };
     let kinetic = downhill.of(model.kinetic_friction());
-    if libm::tan(tilt_rad).abs() > kinetic && model.slider_stiffness_n_per_m() == 0.0 {
+    let steepness = model.slider().steepness();
+    if steepness > kinetic && model.slider_stiffness_n_per_m() == 0.0 {
         warnings.push(Notice::new(
             NoticeKind::SlideNeedNotStop,
             format!(
-                "the slope {:.4} is above the kinetic friction {kinetic} downhill and no spring \
-                 holds the block: a slide need not stop",
-                libm::tan(tilt_rad).abs()
+                "the slope {steepness:.4} is above the kinetic friction {kinetic} downhill and no \
+                 spring holds the block: a slide need not stop",
             ),
         ));
     }

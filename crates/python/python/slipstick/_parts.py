@@ -94,7 +94,11 @@ class Slider(Part):
         Damper as a ratio ξ of critical damping: C1 = 2 ξ √(K1 M_tot). Needs spring, radius or period.
         Such as ``"6 %"``.
     tilt
-        Tilt of the sliding surface, positive uphill towards +x.
+        Tilt of the sliding surface, positive uphill towards +x: the angle that its x axis makes with the
+        horizontal.
+        Such as ``"1 mrad"``.
+    tilt_y
+        The same along y, positive uphill towards +y; default 0.
         Such as ``"1 mrad"``.
     asymmetry
         Both coefficients of friction times 1 + asymmetry for sliding towards +x, times 1 - asymmetry
@@ -131,6 +135,7 @@ class Slider(Part):
         damper: str | Quantity | None = None,
         damping_ratio: SupportsFloat | str | None = None,
         tilt: str | Quantity | None = None,
+        tilt_y: str | Quantity | None = None,
         asymmetry: SupportsFloat | str | None = None,
         gap: str | Quantity | None = None,
         stop: Mapping[str, Any] | None = None,

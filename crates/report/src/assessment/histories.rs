@@ -8,6 +8,7 @@ mod profiles;
 use serde::Serialize;
 use slipstick::assessment::FailedRun;
 use slipstick::assessment::code::{Plan, PropertyFactors};
+use slipstick::assessment::histories::left_out::LeftOut;
 use slipstick::assessment::histories::{Histories, ModelHistories, OnRecord, RECORDS_OF_A_MEAN};
 use slipstick::assessment::suite::{Recorded, condensed};
 use slipstick::input::Bound;
@@ -399,6 +400,9 @@ impl HistoriesReport<'_> {
                     .to_owned(),
             );
         }
+        for model in &self.histories.models {
+            method.extend(model.left_out.as_ref().map(|left_out| apart(&model.name, left_out)));
+        }
         if self.factors.is_some() {
             method.push(
                 "The bounds of friction are products of property modification factors, of the least and of \
@@ -541,4 +545,27 @@ fn columns(table: &table::Table) -> impl Serialize {
     each(&table.columns, |Column { name, unit, cells }| {
         view! { name, unit, values: cell_values(cells) }
     })
+}
+
+/// What components that are run by themselves leave out, by how much for a block on one pendulum.
+fn apart(name: &str, left_out: &LeftOut) -> String {
+    let [median, least, most] = left_out.spread().map(|ratio| format!("{ratio:.2}"));
+    let slider = left_out.simple.slider();
+    let [friction, _] = left_out.simple.kinetic_friction();
+    let on = match slider.radius_m() {
+        Some(radius_m) => format!("a pendulum of R = {} m", compact(radius_m)),
+        None if slider.stiffness_n_per_m(0.0) > 0.0 => "a spring".to_owned(),
+        None => "a flat surface".to_owned(),
+    };
+    let pairs = match left_out.ratios.len() {
+        1 => "in the one pair that says so".to_owned(),
+        count => format!("the median of {count} pairs, {least} to {most}"),
+    };
+    format!(
+        "{name} cannot be run in two directions, and each axis by itself leaves out that sliding along one weakens what \
+         friction holds along the other. A rigid block on {on} and a friction of {}, which has the stiffness and the \
+         friction of the slider, goes {median} times as far under both components at once as under the worse of \
+         them by itself: {pairs}. The displacements of these tables are short by something of that order.",
+        compact(friction)
+    )
 }

@@ -25,7 +25,7 @@ fn unknown_keys_at_any_depth() {
     assert_eq!(
         changed("spring = ", "sprng = "),
         "m.toml:10:1: slider.sprng: expected one of the keys static_friction, kinetic_friction, \
-         pressure, static_ratio, surface, triple, spring, radius, period, damper, damping_ratio, tilt, asymmetry, gap, stop, bounds, found \"sprng\"; \
+         pressure, static_ratio, surface, triple, spring, radius, period, damper, damping_ratio, tilt, tilt_y, asymmetry, gap, stop, bounds, found \"sprng\"; \
          nearest is \"spring\""
     );
     assert_eq!(

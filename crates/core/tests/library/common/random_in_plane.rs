@@ -47,12 +47,16 @@ pub struct System {
     pub friction: [f64; 2],
     /// `μ_fast` and `α` in s/m, of friction by speed.
     pub by_speed: Option<[f64; 2]>,
+    /// Corners of friction by straight lines of the speed after that at rest: speeds in m/s and `μ` there.
+    pub corners: Vec<[f64; 2]>,
     pub slider: Restoring,
     pub damper: f64,
     pub initial: [[f64; 2]; 2],
     pub times_s: Vec<f64>,
     pub table: [Vec<f64>; 2],
     pub vertical: Option<Vec<f64>>,
+    /// `sin θ` of the tilt along x and y.
+    pub slope: [f64; 2],
 }
 
 #[derive(Clone, Copy)]
@@ -131,13 +135,35 @@ impl System {
             dampers,
             friction,
             by_speed,
+            corners: Vec::new(),
             slider,
             damper,
             initial,
             times_s,
             table,
             vertical,
+            slope: [0.0; 2],
         }
+    }
+
+    /// The same with friction by straight lines of the speed.
+    pub fn with_lines(&self, seed: u64) -> Self {
+        let mut r = Random::new(3_000_017 + seed);
+        let [fixed, kinetic] = self.friction;
+        let kinetic = if kinetic > 0.0 { kinetic } else { 0.03 };
+        let (mut speed, mut corners) = (0.0, Vec::new());
+        for _ in 0..1 + (r.unit() * 4.0) as usize {
+            speed += [1e-3, 0.02, 0.1, 0.4][(r.unit() * 4.0) as usize] * r.between(0.3, 1.0);
+            corners.push([speed, kinetic * r.between(0.3, 2.5)]);
+        }
+        Self { friction: [fixed.max(kinetic), kinetic], by_speed: None, corners, ..self.clone() }
+    }
+
+    /// The same on a surface with a tilt.
+    pub fn on_a_slope(&self, seed: u64) -> Self {
+        let mut r = Random::new(5_000_011 + seed);
+        let most = 1.3 * self.friction[0];
+        Self { slope: [0; 2].map(|_| r.between(-most, most)), ..self.clone() }
     }
 
     /// The same moving along a line at an angle as x alone does.
@@ -146,6 +172,7 @@ impl System {
         let on = |x: f64| [cosine * x, sine * x];
         let x = &self.table[0];
         Self {
+            slope: on(self.slope[0]),
             initial: self.initial.map(|[x, _]| on(x)),
             table: [0, 1].map(|axis| x.iter().map(|x| on(*x)[axis]).collect()),
             ..self.clone()
@@ -157,6 +184,7 @@ impl System {
         Self {
             friction: [self.friction[0], 0.0],
             by_speed: None,
+            corners: Vec::new(),
             initial: [[0.0; 2]; 2],
             ..self.clone()
         }
@@ -166,7 +194,8 @@ impl System {
     pub fn changed(&self, of: impl Fn([f64; 2]) -> [f64; 2]) -> Self {
         let [x, y] = &self.table;
         let (x, y) = x.iter().zip(y).map(|(x, y)| of([*x, *y])).map(|[x, y]| (x, y)).unzip();
-        Self { initial: self.initial.map(&of), table: [x, y], ..self.clone() }
+        let (initial, slope) = (self.initial.map(&of), of(self.slope));
+        Self { initial, slope, table: [x, y], ..self.clone() }
     }
 
     /// The same with two more samples between each two, on the lines between them.
@@ -192,10 +221,21 @@ impl System {
 
     pub fn model(&self) -> Model {
         let [fixed, kinetic] = self.friction;
-        let friction = match self.by_speed {
-            None => Friction::new(fixed, kinetic),
+        let curve = match self.by_speed {
             Some([fast, rate_s_per_m]) => {
-                let curve = RateCurve::Exponential { slow: kinetic, fast, rate_s_per_m };
+                Some(RateCurve::Exponential { slow: kinetic, fast, rate_s_per_m })
+            }
+            None if self.corners.is_empty() => None,
+            None => {
+                let all = || [[0.0, kinetic]].into_iter().chain(self.corners.iter().copied());
+                let speeds_m_per_s = all().map(|[speed, _]| speed).collect();
+                let coefficients = all().map(|[_, mu]| mu).collect();
+                Some(RateCurve::Pieces { speeds_m_per_s, coefficients })
+            }
+        };
+        let friction = match curve {
+            None => Friction::new(fixed, kinetic),
+            Some(curve) => {
                 RateLaw::new(curve, [1.0; 2]).and_then(|law| Friction::by_speed([fixed; 2], law))
             }
         }
@@ -231,7 +271,8 @@ impl System {
             initial: initial(1),
         };
         let block = Block { mass_kg: self.mass_kg, width_m: Some(0.6), height_m: Some(0.4) };
-        let slider = Slider { damper_n_s_per_m: self.damper, ..slider };
+        let [tilt_rad, tilt_y_rad] = self.slope.map(libm::asin);
+        let slider = Slider { damper_n_s_per_m: self.damper, tilt_rad, tilt_y_rad, ..slider };
         Model::new(block, slider, frame, 9.80665, initial(0))
             .and_then(|model| model.with_along_y(along_y))
             .expect("a model")

@@ -150,7 +150,7 @@ impl<'a> PlaneJudge<'a> {
 
     /// Judges a step of a stick by what is asked at its points.
     pub(super) fn stays(&mut self, step: &Step) {
-        let Stretch { from_s, step_s, loads } = step.stretch;
+        let Stretch { from_s, step_s, loads, .. } = step.stretch;
         let rounding = self.rounding(&loads[0]);
         let at_points = core::array::from_fn(|point| {
             self.required_friction(step.push(point), &step.loads(point)).0

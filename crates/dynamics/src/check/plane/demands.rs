@@ -1,6 +1,6 @@
 //! The printed demands of a motion in a plane, compared with those of the check's own.
 
-use super::super::demands::{Comparison, Recomputed, Rounding, of_directions, of_motion};
+use super::super::demands::{Comparison, Corner, Recomputed, Rounding, of_directions, of_motion};
 use super::frame::norm;
 use super::judge::PlaneJudge;
 use crate::response::output::VELOCITY;
@@ -26,6 +26,10 @@ impl<'a> PlaneJudge<'a> {
             events: &self.events,
             gap_m: model.slider().gap_m(),
             width_m: None,
+            corner: self.frame().per_resisted.map(|per| {
+                let [corner, possible] = peaks.corner;
+                Corner { ratio: [corner, possible.max(corner)], per_n_m: per[0] + per[1] }
+            }),
         };
         of_motion(c, (model, response, self.h), &root, rounding);
         self.of_peak_time(c, (peak_m, near_m));
@@ -44,6 +48,7 @@ impl<'a> PlaneJudge<'a> {
                 scales: if is_still { largest } else { root.scales },
                 gap_m: None,
                 width_m: widths[axis],
+                corner: None,
                 ..root
             };
             let rounding = if is_still { &Rounding::default() } else { rounding };

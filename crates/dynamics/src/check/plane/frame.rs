@@ -14,6 +14,7 @@
 use super::super::collocation::{Column, add};
 use super::super::ground::Load;
 use super::super::law::Law;
+use super::super::rate::SpeedLine;
 use super::super::structure::{Phase, StoreyDamping, Structure};
 use super::body::{Body, PointOfModes, parts_of};
 use crate::model::{Model, Structure as ByModes};
@@ -92,6 +93,10 @@ pub(super) struct PlaneFrame<'a> {
     pub(super) damper: f64,
     /// `1/R` of a spring that follows `N`.
     pub(super) curvature_per_m: f64,
+    /// `g sin θ` along x and y: in all accelerations, not in what is told of them.
+    pub(super) slope: Pair,
+    /// One over `M_tot g width/2` along x and y, where both are given and a moment is asked for.
+    pub(super) per_resisted: Option<Pair>,
     /// Mass of each part of `q`, and along what it moves: floors along x and y in turn from the first up, or
     /// oscillators.
     pub(super) masses_kg: Vec<f64>,
@@ -154,6 +159,8 @@ impl<'a> PlaneFrame<'a> {
             spring: x.spring,
             damper: x.damper,
             curvature_per_m,
+            slope: model.slope_in_plane_m_per_s2(),
+            per_resisted: per_resisted(model),
             masses_kg: x.masses_kg.iter().flat_map(|mass| [*mass; 2]).collect(),
             points: None,
             on_block: [&stiffness, &damping].map(|rows| on_block(rows, &along)),
@@ -217,6 +224,8 @@ impl<'a> PlaneFrame<'a> {
             spring: slider.spring,
             damper: slider.damper,
             curvature_per_m,
+            slope: model.slope_in_plane_m_per_s2(),
+            per_resisted: per_resisted(model),
             masses_kg: parts.iter().map(|part| part.mass_kg).collect(),
             points: Some(PointOfModes::all(structure)),
             on_block: [&stiffness, &damping].map(|rows| on_block(rows, &along)),
@@ -229,6 +238,15 @@ impl<'a> PlaneFrame<'a> {
             fixed: law.most(),
             most: law.most().max(law.most_sliding()),
         }
+    }
+
+    /// Where an oscillator of a structure by its modes starts: as given, or held by the slope's pull at rest.
+    pub(super) fn held_m(&self, part: usize, model: &Model) -> f64 {
+        let given = model.along_y().initial.storey_displacement_m;
+        given.map_or_else(
+            || -self.masses_kg[part] * self.ridden(part, self.slope) / self.stiffness.own(part),
+            |list| list[part],
+        )
     }
 
     /// What rides on the block of a vector of it, part by part.
@@ -252,6 +270,26 @@ impl<'a> PlaneFrame<'a> {
         self.law.kinetic_at(speed).map(|mu| mu * pressed / self.block_kg)
     }
 
+    /// Friction on a straight line by the speed, wherever the speed is.
+    pub(super) fn slowing_on(
+        &self,
+        line: Option<SpeedLine>,
+        (normal, speed): (f64, f64),
+    ) -> [f64; 2] {
+        let Some(SpeedLine { from, mu, slope, .. }) = line else {
+            return self.slowing_and_slope(normal, speed);
+        };
+        let pressed = self.law.pressed(normal);
+        [mu + slope * (speed - from), slope].map(|mu| mu * pressed / self.block_kg)
+    }
+
+    /// The straight line of friction by the speed on which a slip of a velocity goes on, where there are such: a speed is at
+    /// a corner within a part of it.
+    pub(super) fn line_of(&self, w: Pair, change: Pair, near: f64) -> Option<SpeedLine> {
+        let rate = self.law.rate.as_ref()?;
+        rate.line(norm(w), w == [0.0; 2] || dot(w, change) >= 0.0, near)
+    }
+
     /// `f = μ_k N/M1` at a sliding speed.
     pub(super) fn slowing(&self, loads: &Loads, speed: f64) -> f64 {
         let [f, _] = self.slowing_and_slope(loads[0].normal, speed);
@@ -271,7 +309,7 @@ impl<'a> PlaneFrame<'a> {
 
     /// Whether there is no friction at any speed.
     pub(super) fn is_free(&self, loads: &Loads) -> bool {
-        [0.0, 1.0].iter().all(|speed| self.slowing(loads, *speed) == 0.0)
+        self.law.has_no_kinetic() || self.law.pressed(loads[0].normal) == 0.0
     }
 
     /// `μ_s N/M1`.
@@ -412,6 +450,12 @@ impl<'a> PlaneFrame<'a> {
     }
 }
 
+fn per_resisted(model: &Model) -> Option<Pair> {
+    let widths_m = [model.block().width_m?, model.along_y().width_m?];
+    model.lever_arms()?;
+    Some(widths_m.map(|width_m| 2.0 / (width_m * model.weight_n())))
+}
+
 /// A square matrix: row by row what is not 0, and in which column.
 struct Rows(Vec<Vec<(usize, f64)>>);
 
@@ -419,6 +463,11 @@ impl Rows {
     fn new(n: usize, matrix: &[f64]) -> Self {
         let row = |i: usize| (0..n).map(move |j| (j, matrix[i * n + j])).filter(|(_, c)| *c != 0.0);
         Self((0..n).map(|i| row(i).collect()).collect())
+    }
+
+    /// What stands on the diagonal of a row.
+    fn own(&self, row: usize) -> f64 {
+        self.0[row].iter().filter(|(j, _)| *j == row).map(|(_, c)| c).sum()
     }
 
     /// A row times values at some instants.

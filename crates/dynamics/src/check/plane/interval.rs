@@ -1,6 +1,7 @@
 //! The own motion from a knot to the next.
 
 use super::super::collocation::POINTS;
+use super::super::rate::SpeedLine;
 use super::super::structure::{excess, larger};
 use super::decisions::is_straight;
 use super::frame::{Loads, Pair, dot, norm, pair, unit};
@@ -20,6 +21,10 @@ const SHORTEST_STRAIGHT_M: f64 = 2e-18;
 const DEFECT: f64 = 2e-15;
 /// Largest last Legendre coefficient over the largest force: beyond it they say nothing.
 const TAIL: f64 = 1e-4;
+/// A speed is at a corner of friction by straight lines within this part of it.
+const AT_CORNER: f64 = 16.0 * f64::EPSILON;
+/// Most cuts of a step to a corner.
+const MOST_CUTS: u32 = 8;
 /// Most halvings to tell a peak.
 const DEEPEST: u32 = 12;
 /// Most steps of an interval.
@@ -82,7 +87,7 @@ impl<'a> PlaneJudge<'a> {
             }
             state_rounding =
                 f64::max(state_rounding, self.normal_rounding_of_state(&path.state, &loads[0]));
-            let stretch = Stretch { from_s: at_s, step_s: to_s - at_s, loads };
+            let stretch = Stretch { from_s: at_s, step_s: to_s - at_s, loads, line: None };
             if slips {
                 self.slide(&mut path, &stretch)?;
             } else {
@@ -227,20 +232,37 @@ impl<'a> PlaneJudge<'a> {
         if step_s > 0.9 * left_s && self.axes.stepper.parts(left_s, true) == 1.0 {
             step_s = left_s;
         }
+        let (line, mut cuts) = (self.line_from(path, &stretch.at(t)), 0);
         loop {
             self.pulse.tick(256 + 64 * self.frame().degrees() as u32)?;
-            let step = self.axes.stepper.solve(&path.state, stretch.part(t, step_s), true);
+            let part = Stretch { line, ..stretch.part(t, step_s) };
+            let step = self.axes.stepper.solve(&path.state, part, true);
             let bearable = self.bearable();
             let stands =
                 |s: &Step| s.tail <= TAIL && s.defect() <= bearable || s.pushes() <= bearable;
             if let Some(step) = step.filter(|step| stands(step)) {
-                return Ok(Some(step));
+                let corner = step.corner(self.axes.stepper.rule, AT_CORNER);
+                match corner.filter(|_| cuts < MOST_CUTS) {
+                    Some(corner) => (step_s, cuts) = (step_s * corner, cuts + 1),
+                    None => return Ok(Some(step)),
+                }
+            } else {
+                step_s *= 0.5;
             }
-            step_s *= 0.5;
             if step_s <= f64::EPSILON * f64::EPSILON * stretch.step_s {
                 return Ok(None);
             }
         }
+    }
+
+    /// The straight line of friction by the speed on which a slip goes on.
+    fn line_from(&self, path: &IntervalPath, loads: &Loads) -> Option<SpeedLine> {
+        let frame = self.frame();
+        let (w, push) = (path.state.speed(), self.push(&path.state, loads));
+        let r = norm(w);
+        let slowed = if r > 0.0 { frame.slowing(loads, r) / r } else { 0.0 };
+        let change = frame.body.moved([push[0] - slowed * w[0], push[1] - slowed * w[1]]);
+        frame.line_of(w, change, AT_CORNER)
     }
 
     /// How long a first step from here may be: the motion bends within `r/(f + |p|)`.

@@ -84,7 +84,8 @@ impl<'a> PlaneJudge<'a> {
         frame: &'a PlaneFrame<'a>,
     ) -> Self {
         let end_s = given.history.time_s.last().copied().unwrap_or(0.0);
-        let ground_y = Ground::of(given.model, given.motion, table_y, end_s);
+        let [_, slope_y] = frame.slope;
+        let ground_y = Ground::of(given.model, given.motion, (table_y, slope_y), end_s);
         let most_y = ground_y.largest(end_s).1;
         let start = [given.model.initial(), &given.model.along_y().initial];
         let slides = start.iter().any(|initial| initial.sliding_velocity_m_per_s != 0.0);
@@ -213,7 +214,8 @@ impl<'a> PlaneJudge<'a> {
             };
             side.excess = excess(off - frame.most * self.pressed_rounding(&loads[0]));
         }
-        let inertia = frame.inertia(block);
+        let pulled = [0, 1].map(|i| block[i] + frame.slope[i]);
+        let inertia = frame.inertia(pulled);
         let balance = [0, 1].map(|i| inertia[i] - base[i] + spring[i] + damper[i] - friction[i]);
         side.defect = larger(side.defect, excess(norm(balance) - follows_n));
         for vector in [inertia, base, spring, damper, friction] {
@@ -226,7 +228,7 @@ impl<'a> PlaneJudge<'a> {
                 Some(_) => lists[0][k * n + i],
                 None => lists[i % 2][k * n + i / 2],
             };
-            let inertia = mass * own;
+            let inertia = mass * (own + frame.ridden(i, frame.slope));
             side.defect = larger(side.defect, inertia + force[0]);
             side.term = larger(side.term, inertia);
         }
@@ -264,19 +266,24 @@ impl Directions for PlaneJudge<'_> {
 
     fn initial(&self, degree: usize) -> [f64; 2] {
         let (model, y) = (self.model, &self.model.along_y().initial);
-        let of_y = |part: usize| {
-            let given = [&y.storey_displacement_m, &y.storey_velocity_m_per_s];
-            given.map(|list| list.as_ref().map_or(0.0, |list| list[part]))
-        };
         match degree.checked_sub(2) {
             None => {
                 let initial = if degree == 0 { model.initial() } else { y };
                 [initial.sliding_displacement_m, initial.sliding_velocity_m_per_s]
             }
-            Some(i) if self.frame().points.is_some() => of_y(i),
-            Some(i) if i % 2 == 1 => of_y(i / 2),
+            Some(i) if self.frame().points.is_some() => {
+                let velocities = y.storey_velocity_m_per_s.as_ref();
+                [self.frame().held_m(i, model), velocities.map_or(0.0, |list| list[i])]
+            }
             Some(i) => {
-                [model.initial_storey_displacement_m(), model.initial_storey_velocity_m_per_s()]
+                let turned;
+                let own = if i % 2 == 1 {
+                    turned = model.turned_to_y();
+                    &turned
+                } else {
+                    model
+                };
+                [own.initial_storey_displacement_m(), own.initial_storey_velocity_m_per_s()]
                     .map(|list| list[i / 2])
             }
         }
@@ -385,7 +392,7 @@ impl Directions for PlaneJudge<'_> {
 
     /// The motion is found over the table, whose acceleration a block without friction does not have.
     fn carried_n(&self) -> f64 {
-        self.frame().total_kg * self.largest.1
+        self.frame().total_kg * (self.largest.1 + norm(self.frame().slope))
     }
 
     fn compare_demands(&self, c: &mut Comparison, rounding: &Rounding) {

@@ -3,7 +3,7 @@
 //! In a step whose last Legendre coefficients are rounding all outputs are polynomials as good as the motion.
 
 use super::super::collocation::{Column, POINTS, Rule};
-use super::super::outputs::{Outputs, raise, raise_size};
+use super::super::outputs::{Outputs, is_below, raise, raise_size};
 use super::super::structure::larger;
 use super::body::PointOfModes;
 use super::frame::{Forces, Pair, PlaneFrame, Under, cross, dot, norm, pair, times, unit};
@@ -145,7 +145,7 @@ impl Tracked<'_> {
         for axis in 0..2 {
             self.outputs.each(
                 [&v[axis], &slider[axis], &friction[axis], &acting.forces.base[axis], &[0.0; N]],
-                (0.0, &block[axis]),
+                (frame.slope[axis], &block[axis]),
                 |point| match &by_modes {
                     Some(points) => points[point][axis],
                     None => {
@@ -170,6 +170,8 @@ pub(super) struct Peaks {
     pub(super) possible: [Vec<f64>; 3],
     /// Largest `s` towards the four sides.
     pub(super) sides_m: [f64; 4],
+    /// Largest `|r_x| + |r_y|` of the overturning ratios, and what it may be where rounding decides.
+    pub(super) corner: [f64; 2],
     /// Room for vectors at the points of a step.
     at: Vec<[Column<POINTS>; 2]>,
 }
@@ -178,7 +180,7 @@ impl Peaks {
     pub(super) fn new(outputs: &Outputs) -> Self {
         let zeros = || core::array::from_fn(|_| vec![0.0; outputs.len() + 1]);
         let (sides_m, at) = ([f64::NEG_INFINITY; 4], Vec::new());
-        Self { largest: zeros(), possible: zeros(), sides_m, at }
+        Self { largest: zeros(), possible: zeros(), sides_m, corner: [0.0; 2], at }
     }
 
     /// Raises the peaks by what is seen at an instant, in a slip in a direction or in stick.
@@ -196,9 +198,19 @@ impl Peaks {
                 *peak = larger(*peak, size);
             }
         }
+        self.see_corner(tracked, pair(&vectors[OVERTURNING], 0), true);
         let s = [0, 1].map(|axis| acting.x()[axis][0]);
         for (most, side) in self.sides_m.iter_mut().zip(SIDES) {
             *most = most.max(dot(s, side));
+        }
+    }
+
+    /// Raises the overturning ratio of both axes together by moments.
+    fn see_corner(&mut self, tracked: &Tracked<'_>, [x, y]: Pair, certain: bool) {
+        if let Some(per) = tracked.frame.per_resisted {
+            let sum = (per[0] * x).abs() + (per[1] * y).abs();
+            let most = &mut self.corner[usize::from(!certain)];
+            *most = larger(*most, sum);
         }
     }
 
@@ -218,7 +230,8 @@ impl Peaks {
         let Forces { push, spring, damper, .. } = &acting.forces;
         let [push, spring, damper, a] =
             [push, spring, damper, &acting.under.a].map(|columns| pair(columns, 0));
-        let block = unit([-(push[0] + a[0]), -(push[1] + a[1])]);
+        let slope = tracked.frame.slope;
+        let block = unit([0, 1].map(|i| slope[i] - (push[i] + a[i])));
         let slider = unit([0, 1].map(|i| spring[i] + damper[i]));
         let inside = |u: &Pair| {
             arc.is_none_or(|[from, to]| {
@@ -229,11 +242,16 @@ impl Peaks {
                     && dot(*u, [from[0] + to[0], from[1] + to[1]]) > 0.0
             })
         };
-        let turns = SIDES.into_iter().chain(block).chain(slider).filter(inside);
+        // Of r_x ± r_y, in which the block's acceleration is by its own height.
+        let diagonal = tracked.frame.per_resisted.and_then(unit);
+        let diagonals = diagonal.map(|[x, y]| [[x, y], [-x, -y], [x, -y], [-x, y]]);
+        let turns = SIDES.into_iter().chain(block).chain(slider);
+        let turns = turns.chain(diagonals.into_iter().flatten()).filter(inside);
         let mut vectors = Vec::new();
-        let to = if certain { &mut self.largest } else { &mut self.possible };
         for u in turns.chain(arc.into_iter().flatten()) {
             tracked.vectors(acting, Some(u.map(|u| [u])), &mut vectors);
+            self.see_corner(tracked, pair(&vectors[OVERTURNING], 0), certain);
+            let to = if certain { &mut self.largest } else { &mut self.possible };
             for g in BY_DIRECTION {
                 for (view, size) in sizes(pair(&vectors[g], 0)).into_iter().enumerate() {
                     to[view][g] = larger(to[view][g], size);
@@ -265,25 +283,25 @@ impl Peaks {
             at(i as f64 / LOOKS as f64, vectors);
         }
         let n = tracked.outputs.points();
-        let to = if certain { &mut self.largest } else { &mut self.possible };
         let mut vectors = Vec::new();
+        if let Some(per) = tracked.frame.per_resisted {
+            let sum = |moments: Pair| (per[0] * moments[0]).abs() + (per[1] * moments[1]).abs();
+            let own = |i: usize| sum(pair(&all[i][OVERTURNING], 0));
+            let most = largest_along(own, LOOKS, |part| {
+                at(part, &mut vectors);
+                sum(pair(&vectors[OVERTURNING], 0))
+            });
+            let to = &mut self.corner[usize::from(!certain)];
+            *to = larger(*to, most);
+        }
+        let to = if certain { &mut self.largest } else { &mut self.possible };
         for g in BY_DIRECTION.into_iter().chain((0..n).map(|i| Output::Acceleration(i).place(n))) {
             for view in 0..3 {
                 let size = |i: usize| sizes(pair(&all[i][g], 0))[view];
-                let best =
-                    (1..=LOOKS).fold(0, |best, i| if size(i) > size(best) { i } else { best });
-                let mut most = size(best);
-                let [mut low, mut high] = [best.saturating_sub(1), (best + 1).min(LOOKS)]
-                    .map(|i| i as f64 / LOOKS as f64);
-                for _ in 0..40 {
-                    let [a, b] = [0.4, 0.6].map(|part| low + (high - low) * part);
-                    let [of_a, of_b] = [a, b].map(|part| {
-                        at(part, &mut vectors);
-                        sizes(pair(&vectors[g], 0))[view]
-                    });
-                    most = most.max(of_a).max(of_b);
-                    if of_a > of_b { high = b } else { low = a }
-                }
+                let most = largest_along(size, LOOKS, |part| {
+                    at(part, &mut vectors);
+                    sizes(pair(&vectors[g], 0))[view]
+                });
                 to[view][g] = larger(to[view][g], most);
             }
         }
@@ -343,6 +361,19 @@ impl Peaks {
         at: &[[Column<POINTS>; 2]],
         coarse: bool,
     ) -> bool {
+        if let Some(per) = tracked.frame.per_resisted {
+            let moments = &at[OVERTURNING];
+            for sign in [1.0, -1.0] {
+                let sum: Column<POINTS> = core::array::from_fn(|i| {
+                    per[0] * moments[0][i] + sign * (per[1] * moments[1][i])
+                });
+                if !is_below(&sum, self.corner[0])
+                    && !raise_size(rule, &mut self.corner[0], &sum, coarse)
+                {
+                    return false;
+                }
+            }
+        }
         for (g, parts) in at.iter().enumerate() {
             let is_place = g + 1 == tracked.len();
             if !is_place && self.is_below(g, parts) {
@@ -368,4 +399,23 @@ impl Peaks {
         }
         true
     }
+}
+
+/// The largest value of a function of a part, known at so many parts and sought closer about the largest of them.
+fn largest_along(
+    known: impl Fn(usize) -> f64,
+    count: usize,
+    mut of: impl FnMut(f64) -> f64,
+) -> f64 {
+    let best = (1..=count).fold(0, |best, i| if known(i) > known(best) { i } else { best });
+    let mut most = known(best);
+    let [mut low, mut high] =
+        [best.saturating_sub(1), (best + 1).min(count)].map(|i| i as f64 / count as f64);
+    for _ in 0..40 {
+        let [a, b] = [0.4, 0.6].map(|part| low + (high - low) * part);
+        let [of_a, of_b] = [of(a), of(b)];
+        most = most.max(of_a).max(of_b);
+        if of_a > of_b { high = b } else { low = a }
+    }
+    most
 }

@@ -16,6 +16,7 @@
 //! [`maps`]: super::maps
 
 use super::super::collocation::{Column, NODES, POINTS, Rule, add, legendre};
+use super::super::rate::SpeedLine;
 use super::frame::{Loads, Pair, PlaneFrame, Under, between, cross, dot, norm, pair, times, unit};
 use super::maps::{Blocks, Influence, Linear};
 use super::peaks::Acting;
@@ -62,6 +63,8 @@ pub(super) struct Stretch {
     pub(super) from_s: f64,
     pub(super) step_s: f64,
     pub(super) loads: [Loads; 2],
+    /// The straight line of friction by the speed that a slip is on.
+    pub(super) line: Option<SpeedLine>,
 }
 
 impl Stretch {
@@ -73,7 +76,7 @@ impl Stretch {
     /// The part of a length from a time on.
     pub(super) fn part(&self, t: f64, step_s: f64) -> Self {
         let end = if t + step_s >= self.step_s { self.loads[1] } else { self.at(t + step_s) };
-        Self { from_s: self.from_s + t, step_s, loads: [self.at(t), end] }
+        Self { from_s: self.from_s + t, step_s, loads: [self.at(t), end], ..*self }
     }
 }
 
@@ -115,6 +118,34 @@ impl Step {
         State { x, v }
     }
 
+    /// The part of it at which the speed leaves the line of friction that it is on, if it does, to within a part of the
+    /// corner.
+    pub(super) fn corner(&self, rule: &Rule, near: f64) -> Option<f64> {
+        let line = self.stretch.line.filter(|_| self.slips)?;
+        let speed = |t: f64| norm(self.speed_at(rule, t));
+        // Beyond either end of the line.
+        let beyond = |speed: f64| {
+            let above = speed - line.to * (1.0 + near);
+            if line.from > 0.0 { above.max(line.from * (1.0 - near) - speed) } else { above }
+        };
+        let speeds = self.speeds.map(beyond);
+        let last = POINTS - 1;
+        let first = (1..=last).find(|&i| speeds[i] > 0.0);
+        // Where it goes there and back between two points.
+        let best = (1..last).fold(1, |best, i| if speeds[i] > speeds[best] { i } else { best });
+        let top = || rule.least_of((best, -speeds[best]), |t| -beyond(speed(t))).0;
+        let mut high = match first {
+            Some(i) => rule.points[i],
+            None => Some(top()).filter(|t| beyond(speed(*t)) > 0.0)?,
+        };
+        let mut low = first.map_or(rule.points[best - 1], |i| rule.points[i - 1]);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if beyond(speed(middle)) > 0.0 { high = middle } else { low = middle }
+        }
+        (low > 0.0 && low < 1.0 - 4.0 * f64::EPSILON).then_some(low)
+    }
+
     /// `w` at a part of the step.
     pub(super) fn speed_at(&self, rule: &Rule, part: f64) -> Pair {
         [0, 1].map(|axis| rule.interpolate(&self.acting.v()[axis], part))
@@ -139,7 +170,7 @@ impl Step {
     /// what is left of the velocity is rounding, and the force tells its direction; in straight motion it is that of the
     /// point beside it.
     pub(super) fn heading(&self, frame: &PlaneFrame<'_>, point: usize, push: Pair) -> Pair {
-        let (w, Stretch { from_s, step_s, loads }) = (self.speed(point), &self.stretch);
+        let (w, Stretch { from_s, step_s, loads, .. }) = (self.speed(point), &self.stretch);
         let beside = self.speed(if point == 0 { 1 } else { point - 1 });
         let under = (from_s + step_s, &loads[0], push);
         let is_end = point == 0 || point + 1 == POINTS;
@@ -326,7 +357,9 @@ impl<'a> Stepper<'a> {
         let frame = self.frame;
         let under = |i: usize| between(&stretch.loads, self.rule.c[i]);
         let force = |loads: &Loads, u: Pair, speed: f64, s: Pair| {
-            let (f, kappa) = (frame.slowing(loads, speed), self.stiffness(loads[0].normal));
+            let normal = loads[0].normal;
+            let [f, _] = frame.slowing_on(stretch.line, (normal, speed));
+            let kappa = self.stiffness(normal);
             [0, 1].map(|i| -f * u[i] - kappa * s[i])
         };
         let s = [from.x[0], from.x[1]];
@@ -388,7 +421,7 @@ impl<'a> Stepper<'a> {
             for j in 0..NODES {
                 let w = [w[0][j], w[1][j]];
                 let r = norm(w);
-                let [f, slope] = frame.slowing_and_slope(under.normal[1 + j], r);
+                let [f, slope] = frame.slowing_on(stretch.line, (under.normal[1 + j], r));
                 let mut force = [-kappa[j] * s[0][j], -kappa[j] * s[1][j]];
                 bends[j].1 = kappa[j];
                 if f > 0.0 && r > 0.0 {

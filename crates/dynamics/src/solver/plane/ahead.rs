@@ -193,7 +193,7 @@ impl Plane<'_> {
         let (system, state) = (&self.system, &self.state);
         let [from, to] = [sample, sample + 1].map(|i| {
             let normal_n = self.ground.normal_at(i);
-            ([self.ground.acceleration[i], self.table_y[i]], normal_n)
+            ([self.ground.acceleration[i], self.along_y.acceleration[i]], normal_n)
         });
         let per_s = 1.0 / ahead.step_s;
         let change = [0, 1].map(|k| per_s * (to.0[k] - from.0[k]));

@@ -10,7 +10,7 @@ use super::rows::{PointsBetween, Rows, at};
 use super::series::{Kind, PlaneSeries, square};
 use super::stop::Arc;
 use super::system::{State, System};
-use super::vector::{inner, norm};
+use super::vector::{apart, inner, norm};
 use crate::linear::polynomial::{
     DEGREE, Polynomial, ZERO, curvature_bound, curvature_term, largest, value,
 };
@@ -180,6 +180,8 @@ fn keeps_on_both([from, to]: [[f64; 2]; 2], rise: [f64; 2], bend: [f64; 2]) -> b
 pub(super) struct Peaks {
     points: usize,
     all: Vec<Peak>,
+    /// Of the sum and the difference of the overturning ratios along x and y.
+    corners: Peak,
     room: Room,
     /// Of `s`: its length, when that was largest and where; largest and smallest by axis.
     pub(super) sliding: Peak,
@@ -223,24 +225,27 @@ pub(super) struct StickEnd<'a> {
     pub(super) g: &'a [f64],
 }
 
-/// What a vector output is made of: `a P + b L g − c φ`, with `φ = f u`, in stick `p`.
+/// What a vector output is made of: `a P + b L g − c φ − d`, with `φ = f u`, in stick `p`.
 struct Composed {
     of_pull: f64,
     of_shear: f64,
     of_friction: f64,
+    /// What does not move.
+    less: [f64; 2],
 }
 
 impl Composed {
     /// Without friction.
     fn steady(&self, axis: usize, series: &PlaneSeries) -> Polynomial {
         let (pull, shear) = (&series.pull[axis], &series.shear[axis]);
-        core::array::from_fn(|k| self.of_pull * pull[k] + self.of_shear * shear[k])
+        let own = core::array::from_fn(|k| self.of_pull * pull[k] + self.of_shear * shear[k]);
+        less(own, self.less[axis])
     }
 
     /// Its values at both ends, and how far its components depart from their chords at most.
     fn between(&self, chords: &[[Chord; 2]; 3]) -> ([[f64; 2]; 2], [f64; 2]) {
         let factors = [self.of_pull, self.of_shear, -self.of_friction];
-        let (mut ends, mut bends) = ([[0.0; 2]; 2], [0.0; 2]);
+        let (mut ends, mut bends) = ([self.less.map(|constant| 0.0 - constant); 2], [0.0; 2]);
         for (factor, chords) in factors.into_iter().zip(chords) {
             for (axis, chord) in chords.iter().enumerate() {
                 bends[axis] += factor.abs() * chord.bend;
@@ -285,6 +290,18 @@ pub(super) fn bend(c: &Polynomial, to: f64) -> f64 {
     0.125 * if to == 1.0 { curvature_bound(c) } else { curvature_term(c, to) }
 }
 
+/// `r_x + r_y` and `r_x − r_y` of the overturning ratios, from the moments along x and y.
+fn at_corners(per: [f64; 2], moment: [f64; 2]) -> [f64; 2] {
+    let [x, y] = [per[0] * moment[0], per[1] * moment[1]];
+    [x + y, x - y]
+}
+
+/// A series less a constant.
+fn less(mut c: Polynomial, constant: f64) -> Polynomial {
+    c[0] -= constant;
+    c
+}
+
 fn scaled(c: &Polynomial, factor: f64) -> Polynomial {
     c.map(|c| factor * c)
 }
@@ -296,6 +313,7 @@ impl Peaks {
         Self {
             points: system.points,
             all: vec![Peak::default(); Output::count(system.points, 0)],
+            corners: Peak::default(),
             room: Room::new(system),
             sliding,
             peak_time_s: 0.0,
@@ -303,6 +321,11 @@ impl Peaks {
             largest: s,
             smallest: s,
         }
+    }
+
+    /// The largest `|r_x| + |r_y|` of the overturning ratios.
+    pub(super) fn overturning_ratio(&self) -> f64 {
+        self.corners.axes[0].max(self.corners.axes[1])
     }
 
     pub(super) fn of(&self, output: Output) -> Peak {
@@ -318,24 +341,31 @@ impl Peaks {
         (bend_n, of_g): ([f64; 2], &[f64]),
     ) -> bool {
         let tables = ends.map(|end| end.table);
+        let blocks = tables.map(|table| apart(table, system.slope));
         let kg = system.block_kg;
         let of_push = ends.map(|end| end.push.map(|p| kg * p));
         let of_slider =
             ends.map(|end| [0, 1].map(|k| kg * (end.pull[k] - end.push[k]) - end.shear_n[k]));
-        let own = self.of(Output::Block).is_above(tables, [0.0; 2])
+        let own = self.of(Output::Block).is_above(blocks, [0.0; 2])
             && self.of(Output::FrictionForce).is_above(of_push, bend_n)
             && self.of(Output::SliderForce).is_above(of_slider, bend_n)
             && self.of(Output::BaseShear).is_above(ends.map(|end| end.shear_n), bend_n);
-        let overturns = |axis: usize| {
-            let Some((arm, along)) = &system.overturning[axis] else { return true };
-            let (mut values, mut bend) = ([[0.0; 2]; 2], [0.0; 2]);
+        if !own {
+            return false;
+        }
+        let (mut values, mut bend) = ([[0.0; 2]; 2], [0.0; 2]);
+        for axis in 0..2 {
+            let Some((arm, along)) = &system.overturning[axis] else { continue };
             for i in 0..2 {
                 values[i][axis] = inner(*along, tables[i]) - arm.sum(0, ends[i].g);
             }
             bend[axis] = arm.size(0, of_g);
-            self.of(Output::Overturning).is_above_by_axis(values, bend)
-        };
-        own && (0..2).all(overturns)
+        }
+        self.of(Output::Overturning).is_above_by_axis(values, bend)
+            && system.per_resisted.is_none_or(|per| {
+                let bend = inner(per, bend);
+                self.corners.is_above_by_axis(values.map(|m| at_corners(per, m)), [bend; 2])
+            })
     }
 
     /// Whether no output of a point passes its peak between two instants.
@@ -348,11 +378,9 @@ impl Peaks {
         let ends = ends.each_ref();
         (0..self.points).all(|i| {
             let mut accelerations = ends.map(|end| at(&end.of_g, i));
-            if let Some(part) = system.with_block.get(i) {
-                for (acceleration, table) in accelerations.iter_mut().zip(tables) {
-                    let carried = times(part, table);
-                    *acceleration = [0, 1].map(|k| carried[k] - acceleration[k]);
-                }
+            for (acceleration, table) in accelerations.iter_mut().zip(tables) {
+                let carried = system.with_block.get(i).map_or([0.0; 2], |part| times(part, table));
+                *acceleration = apart(apart(carried, *acceleration), system.slope);
             }
             let drifts = || {
                 let ends = ends.map(|end| at(&end.drifts, i));
@@ -404,6 +432,7 @@ impl Peaks {
         vectorize!(series.instructions, _simd => room.look(system, series, to, (end, g)));
         let PointsBetween { ends, bends } = &room.points;
         let ends = ends.each_ref();
+        let pulled = system.slope.map(|pull| -pull);
         for i in 0..system.points {
             let displacements = ends.map(|end| at(&end.displacements, i));
             let of = (displacements, at(&bends.displacements, i));
@@ -425,14 +454,19 @@ impl Peaks {
                 let steady = [0, 1].map(|axis| -> Polynomial {
                     let [x, y] = &block.steady;
                     let row = with_block[axis];
-                    core::array::from_fn(|k| inner(row, [x[k], y[k]]) - of_modes[axis][k])
+                    let total =
+                        core::array::from_fn(|k| inner(row, [x[k], y[k]]) - of_modes[axis][k]);
+                    less(total, system.slope[axis])
                 });
                 let of_friction = with_block.map(|row| row_times(row, &block.of_friction));
                 self.look_at_vector(Output::Acceleration(i), &Vector { steady, of_friction }, part);
                 continue;
             }
-            let of = (ends.map(|end| at(&end.of_g, i)), at(&bends.of_g, i));
-            self.look_at_rows(Output::Acceleration(i), of, rows, (series, to));
+            // Φ g, and the slope's pull: what is told is −Φ g without it.
+            let ends = ends.map(|end| apart(at(&end.of_g, i), pulled));
+            let of = (ends, at(&bends.of_g, i));
+            let output = Output::Acceleration(i);
+            self.look_at_rows_apart(output, of, rows, (series, to), pulled);
         }
         self.room = room;
     }
@@ -443,9 +477,22 @@ impl Peaks {
     fn look_at_rows(
         &mut self,
         output: Output,
+        of: ([[f64; 2]; 2], [f64; 2]),
+        rows: (&[Rows; 2], usize, &[f64]),
+        part: (&PlaneSeries, f64),
+    ) {
+        self.look_at_rows_apart(output, of, rows, part, [0.0; 2]);
+    }
+
+    /// Looks at an output of rows less a constant, which the ends are already.
+    #[inline(always)]
+    fn look_at_rows_apart(
+        &mut self,
+        output: Output,
         (ends, bend): ([[f64; 2]; 2], [f64; 2]),
         rows: (&[Rows; 2], usize, &[f64]),
         (series, to): (&PlaneSeries, f64),
+        constant: [f64; 2],
     ) {
         let peak = &mut self.all[output.place(self.points)];
         peak.note_ends(ends, to);
@@ -455,7 +502,8 @@ impl Peaks {
         let (of, point, list) = rows;
         let rise = of.each_ref().map(|rows| to * rows.sum(point, &list[series.modes..]));
         if !keeps_on_both(ends, rise, bend) {
-            peak.look(&series.combined(rows), to);
+            let [x, y] = series.combined(rows);
+            peak.look(&[less(x, constant[0]), less(y, constant[1])], to);
         }
     }
 
@@ -492,9 +540,11 @@ impl Peaks {
     fn look_at_block(&mut self, part: &SeriesPart<'_>) -> Option<Vector> {
         let &SeriesPart { system, series, .. } = part;
         let kg = system.block_kg;
-        let block = Composed { of_pull: 1.0, of_shear: 0.0, of_friction: 1.0 };
-        let friction = Composed { of_pull: 0.0, of_shear: 0.0, of_friction: kg };
-        let slider = Composed { of_pull: kg, of_shear: -1.0, of_friction: kg };
+        let slope = system.slope;
+        let block = Composed { of_pull: 1.0, of_shear: 0.0, of_friction: 1.0, less: slope };
+        let none = [0.0; 2];
+        let friction = Composed { of_pull: 0.0, of_shear: 0.0, of_friction: kg, less: none };
+        let slider = Composed { of_pull: kg, of_shear: -1.0, of_friction: kg, less: none };
         // The size of constant friction is linear in the time: its ends are its peaks.
         let law = &system.kinetic_per_kg;
         let by_axis = law.is_constant() && law.is_plain() && series.kind == Kind::Slip;
@@ -508,11 +558,14 @@ impl Peaks {
                 core::array::from_fn(|k| inner(row, [series.pull[0][k], series.pull[1][k]]))
             };
             let block = Vector { steady: [of_pull(0), of_pull(1)], of_friction: mass.inverse };
-            self.look_at_vector(Output::Block, &block, part);
+            let [x, y] = block.steady;
+            let steady = [less(x, slope[0]), less(y, slope[1])];
+            self.look_at_vector(Output::Block, &Vector { steady, ..block }, part);
             own = Some(block);
         } else {
             self.look_at_composed(Output::Block, &block, part, false);
         }
+        let mut moments = Vector { steady: [ZERO; 2], of_friction: [[0.0; 2]; 2] };
         for axis in 0..2 {
             let Some((arm, along)) = &system.overturning[axis] else { continue };
             // The moment of floors and block: −arm·g + along·b.
@@ -531,6 +584,16 @@ impl Peaks {
             let all = &mut self.all[Output::Overturning.place(self.points)];
             all.axes[axis] = peak.axes[axis];
             all.norm = all.norm.max(peak.axes[axis]);
+            moments.steady[axis] = steady;
+            moments.of_friction[axis] = of_friction;
+        }
+        if let Some(per) = system.per_resisted {
+            let ([x, y], [of_x, of_y]) = (&moments.steady, moments.of_friction);
+            let of = |k: usize| at_corners(per, [x[k], y[k]]);
+            let steady = [0, 1].map(|corner| core::array::from_fn(|k| of(k)[corner]));
+            let [a, b] = [0, 1].map(|k| at_corners(per, [of_x[k], of_y[k]]));
+            let of_friction = [[a[0], b[0]], [a[1], b[1]]];
+            Vector { steady, of_friction }.look(&mut self.corners, part, true);
         }
         own
     }
@@ -573,7 +636,7 @@ impl Peaks {
         if system.mass.is_some() {
             self.note_arc_of_block(system, arc, pulls[1], g);
         }
-        let block = (Output::Block, pulls, arc.friction);
+        let block = (Output::Block, pulls.map(|pull| apart(pull, system.slope)), arc.friction);
         let of = [
             (Output::FrictionForce, [[0.0; 2]; 2], kg * arc.friction),
             (Output::SliderForce, slider, kg * arc.friction),
@@ -592,6 +655,7 @@ impl Peaks {
                 peak.axes[axis] = peak.axes[axis].max(size);
             }
         }
+        self.note_arc_at_corners(system, arc, pulls, g);
         let of = of.into_iter().chain(system.mass.is_none().then_some(block));
         for (output, [from, to], c) in of {
             let peak = &mut self.all[output.place(self.points)];
@@ -604,6 +668,30 @@ impl Peaks {
 }
 
 impl Peaks {
+    /// Raises the peaks of the overturning ratios of both axes together, of one mass, along an arc.
+    fn note_arc_at_corners(
+        &mut self,
+        system: &System,
+        arc: &Arc,
+        [from, to]: [[f64; 2]; 2],
+        g: &[f64],
+    ) {
+        let [Some((of_x, along_x)), Some((of_y, along_y))] = &system.overturning else { return };
+        let Some(per) = system.per_resisted.filter(|_| system.mass.is_none()) else { return };
+        let (modes, arms) = ([of_x.sum(0, g), of_y.sum(0, g)], [along_x[0], along_y[1]]);
+        let [x, y] = [per[0] * arms[0], per[1] * arms[1]];
+        let towards = [[x, y], [-x, -y], [x, -y], [-x, y]];
+        let extremes = towards.into_iter().flat_map(|towards| arc.extremes(towards));
+        let within = extremes.map(|u| (u, arc.part_left(u)));
+        for (u, left) in within.chain([(arc.to, 0.0)]).collect::<Vec<_>>() {
+            let moment = [0, 1].map(|k| {
+                let pull = to[k] + (from[k] - to[k]) * left;
+                arms[k] * (pull - arc.friction * u[k]) - modes[k]
+            });
+            self.corners.note(at_corners(per, moment));
+        }
+    }
+
     /// Raises the peaks that the acceleration of a block with a mass in each direction is part of, `b = C (P − f u)`,
     /// along an arc: over times as short all but `u` is constant.
     fn note_arc_of_block(&mut self, system: &System, arc: &Arc, pull: [f64; 2], g: &[f64]) {
@@ -616,13 +704,10 @@ impl Peaks {
                 peak.axes[axis] = peak.axes[axis].max(arc.largest(|u| of(u)[axis].abs()));
             }
         };
-        raise(Output::Block, &block);
+        raise(Output::Block, &|u| apart(block(u), system.slope));
         for (i, part) in system.with_block.iter().enumerate() {
             let of_modes = [0, 1].map(|axis| system.floors[axis].sum(i, g));
-            let of = |u: [f64; 2]| {
-                let of_block = times(part, block(u));
-                [of_block[0] - of_modes[0], of_block[1] - of_modes[1]]
-            };
+            let of = |u: [f64; 2]| apart(apart(times(part, block(u)), of_modes), system.slope);
             raise(Output::Acceleration(i), &of);
         }
         let moments = system
@@ -634,6 +719,12 @@ impl Peaks {
             moments.map(|moment| moment.map_or(0.0, |(modes, along)| inner(along, b) - modes))
         };
         raise(Output::Overturning, &of);
+        if let Some(per) = system.per_resisted {
+            for corner in 0..2 {
+                let largest = arc.largest(|u| at_corners(per, of(u))[corner].abs());
+                self.corners.axes[corner] = self.corners.axes[corner].max(largest);
+            }
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Keeps the history of a response in two horizontal directions.
 
 use super::system::System;
+use super::vector::apart;
 use crate::response::{History, HistoryAlongY, Mode};
 
 /// What is known at a knot.
@@ -55,14 +56,14 @@ impl Recorder {
         for (j, per) in system.oscillators.iter().enumerate() {
             x.storey_displacement_m.push(per * knot.eta[j]);
             x.storey_velocity_m_per_s.push(per * knot.rate[j]);
-            x.storey_acceleration_m_per_s2.push(-(per * knot.g[j]));
+            x.storey_acceleration_m_per_s2.push(-(per * knot.g[j]) - system.slope_along(j));
         }
         let floors = if system.oscillators.is_empty() { system.points } else { 0 };
         for i in 0..floors {
             let of = |list: &[f64]| [0, 1].map(|axis| system.floors[axis].sum(i, list));
             both([&mut x.storey_displacement_m, &mut y.storey_displacement_m], of(knot.eta));
             both([&mut x.storey_velocity_m_per_s, &mut y.storey_velocity_m_per_s], of(knot.rate));
-            let accelerations = of(knot.g).map(|g| -g);
+            let accelerations = apart(of(knot.g).map(|g| -g), system.slope);
             both(
                 [&mut x.storey_acceleration_m_per_s2, &mut y.storey_acceleration_m_per_s2],
                 accelerations,

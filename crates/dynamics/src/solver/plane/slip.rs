@@ -2,16 +2,22 @@
 
 use super::Plane;
 use super::nodes::{NODES, nodes};
+use super::peaks::squared;
 use super::series::Kind;
 use super::stop::Instant;
 use super::system::Loads;
 use super::vector::{inner, norm};
 use crate::linear::polynomial::value;
+use crate::slider::IsotropicFriction;
 use crate::solver::ground::Stretch;
+use crate::solver::slider::first_crossing;
 
 /// The last Legendre coefficients of friction over a step, times its length: of the largest speed, and of the least in the
 /// step, which has a direction. What they leave out is theirs squared at the end of a step, and a hundredth within.
 const TAIL: [f64; 2] = [1e-7, 1e-8];
+
+/// Tolerance of the tail where friction follows straight lines: on a steep one it is off by as much as a slow speed is within a step.
+const TAIL_OF_LINES: [f64; 2] = [1e-7, 1e-10];
 
 /// What of these coefficients over friction is rounding.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
@@ -27,6 +33,12 @@ const DIP: f64 = 0.05;
 
 /// A push above friction by less than this part is at it.
 const AT_BOUND: f64 = 1e-9;
+
+/// A speed is at a corner of friction by straight lines if it is as near to it as this part of it.
+const AT_CORNER: f64 = 16.0 * f64::EPSILON;
+
+/// Most cuts of a step to a corner: each comes nearer to it by the digits that the velocity has within a step.
+const MOST_CUTS: usize = 8;
 
 /// Most lengths that are tried for a step.
 const MOST_LENGTHS: usize = 100;
@@ -61,13 +73,19 @@ impl Plane<'_> {
         }
         self.near_s = near_s;
         self.force.forget();
+        let (law, band) = self.law_at(at);
         let pressed_s = self.system.hold.reach(loads.normal);
         let whole_s = self.system.within_reach(left_s).min(near_s).min(pressed_s);
-        let mut step_s = whole_s.min(self.next_s);
+        let (mut step_s, mut cuts) = (whole_s.min(self.next_s), 0);
         for _ in 0..MOST_LENGTHS {
-            match self.try_slip(at, starts, (loads, step_s)) {
+            match self.try_slip((at, &law), starts, (loads, step_s)) {
                 Tried::Shorter(part) => step_s *= part,
                 Tried::Stands(part) => {
+                    let corner = self.part_within(band).filter(|_| cuts < MOST_CUTS);
+                    if let Some(corner) = corner {
+                        (step_s, cuts) = (step_s * corner, cuts + 1);
+                        continue;
+                    }
                     let longer_s = step_s * part;
                     // What has been cut says nothing about how long a step may be.
                     let was_cut = step_s < self.next_s && self.next_s.is_finite();
@@ -79,6 +97,35 @@ impl Plane<'_> {
             self.next_s = step_s;
         }
         at_s
+    }
+
+    /// The law of friction on the line of the speed on which a slip goes on, and the speeds between which it lies.
+    fn law_at(&self, at: &Instant) -> (IsotropicFriction, [f64; 2]) {
+        let law = &self.system.kinetic_per_kg;
+        if !law.has_corners() {
+            return (law.clone(), [0.0, f64::INFINITY]);
+        }
+        let w = self.state.w;
+        let along = if at.speed > 0.0 { w.map(|w| w / at.speed) } else { self.direction };
+        let change = self.system.moved([0, 1].map(|k| at.push[k] - at.friction * along[k]));
+        law.line_of(at.speed, inner(along, change) >= 0.0, AT_CORNER)
+    }
+
+    /// The part of the series at whose end the speed leaves a line of the law of friction, where that is before its end.
+    ///
+    /// Within a step the velocity is known less well than at its end: a step to the corner is another.
+    fn part_within(&self, [low, high]: [f64; 2]) -> Option<f64> {
+        let square = squared(&self.series.w);
+        let distance = |corner: f64, sign: f64| {
+            let beyond = corner * (1.0 + sign * AT_CORNER);
+            let mut distance = square.map(|c| -sign * c);
+            distance[0] = (distance[0] + sign * (beyond * beyond)).max(0.0);
+            first_crossing(&distance, 1.0)
+        };
+        let up = if high.is_finite() { distance(high, 1.0) } else { None };
+        let down = if low > 0.0 { distance(low, -1.0) } else { None };
+        let first = up.into_iter().chain(down).reduce(f64::min)?;
+        (first > 0.0 && first < 1.0 - 4.0 * f64::EPSILON).then_some(first)
     }
 
     /// How far a step may reach of a slip that slows down.
@@ -99,25 +146,30 @@ impl Plane<'_> {
     }
 
     /// Tries a step of a length, leaving its series.
-    fn try_slip(&mut self, at: &Instant, starts: bool, over: (Loads, f64)) -> Tried {
+    fn try_slip(
+        &mut self,
+        (at, law): (&Instant, &IsotropicFriction),
+        starts: bool,
+        over: (Loads, f64),
+    ) -> Tried {
         if let Some(part) = self.go_freely(starts, over) {
             return Tried::Shorter(fitting(part));
         }
         self.influence.prepare(&self.system, (&over.0, over.1), &mut self.series);
-        let (law, w) = (self.system.kinetic_per_kg, self.state.w);
+        let w = self.state.w;
         let along = if at.speed > 0.0 { w.map(|w| w / at.speed) } else { self.direction };
         if starts && norm(at.push) <= at.friction * (1.0 + AT_BOUND) {
             // At its bound a block follows the push as that turns.
             let system = &self.system;
-            self.force.guess_each(&law, |change| {
+            self.force.guess_each(law, |change| {
                 let p = system.required_friction(change);
                 let size = norm(p);
                 if size > 0.0 { p.map(|p| p / size) } else { along }
             });
         } else {
-            self.force.guess(&law, along, at.speed, &self.influence);
+            self.force.guess(law, along, at.speed, &self.influence);
         }
-        let longer = match self.settle(at, starts, over, along) {
+        let longer = match self.settle((at, law), starts, over, along) {
             Ok(longer) => longer,
             Err(part) => return Tried::Shorter(part),
         };
@@ -155,17 +207,16 @@ impl Plane<'_> {
     /// this one does not stand.
     fn settle(
         &mut self,
-        at: &Instant,
+        (at, law): (&Instant, &IsotropicFriction),
         starts: bool,
         (loads, step_s): (Loads, f64),
         along: [f64; 2],
     ) -> Result<f64, f64> {
-        let law = self.system.kinetic_per_kg;
         // Of a pendulum under a vertical motion the influence changes along the step, which the series knows.
         let varies = loads.normal[1] != 0.0 && self.system.per_radius > 0.0;
         let mut longer = 0.0;
         for _ in 0..if varies { 12 } else { 1 } {
-            if !self.force.settle(&law, &self.influence) {
+            if !self.force.settle(law, &self.influence) {
                 return Err(if starts { 0.3 } else { 0.5 });
             }
             let (friction, tail) = self.force.polynomial();
@@ -195,15 +246,16 @@ impl Plane<'_> {
     }
 
     /// By how much the last coefficients allow a step to be longer.
-    fn longer(&self, tail: f64, starts: bool, step_s: f64) -> f64 {
+    fn longer(&self, last: f64, starts: bool, step_s: f64) -> f64 {
         let size = self.peak_speed.max(self.speed_scale);
         let friction = self.force.largest();
         // From rest the direction is that of the force, else that of the velocity.
         let slowest = if starts { 0.1 * friction * step_s } else { self.force.slowest() };
-        let most = (TAIL[0] * size).min(TAIL[1] * slowest) / step_s;
+        let tail = if self.system.kinetic_per_kg.has_corners() { TAIL_OF_LINES } else { TAIL };
+        let most = (tail[0] * size).min(tail[1] * slowest) / step_s;
         let most = most.max(ROUNDING * friction);
         // The eighth root: as many as there are nodes.
-        (most / tail).sqrt().sqrt().sqrt()
+        (most / last).sqrt().sqrt().sqrt()
     }
 
     /// Whether the velocity keeps clear of rest up to the end of the step.

@@ -36,14 +36,15 @@ impl Instant {
     pub(super) fn new(system: &System, state: &State, loads: &Loads, g: &mut [f64]) -> Self {
         let pull = state.pull(system, loads.normal[0], g);
         let speed = norm(state.w);
-        let [friction, at_rest] =
-            [speed, 0.0].map(|r| system.kinetic_per_kg.force(r, loads.normal[0]));
+        let law = &system.kinetic_per_kg;
+        let friction = law.force(speed, loads.normal[0]);
+        let to_rest = law.range_up_to(speed).map(|mu| mu * law.pressing_n(loads.normal[0]));
         Self {
             speed,
             pull,
             push: loads.push(system, pull),
             friction,
-            to_rest: [friction.min(at_rest), friction.max(at_rest)],
+            to_rest,
             holds: system.hold.radius(loads.normal[0]),
         }
     }

@@ -19,13 +19,16 @@ use crate::response::{
     PointFactorsInPlane, Response, StoreyDemands,
 };
 use crate::solver::course::WalkState;
-use crate::solver::ground::{Ground, Stretch, contact_loss_s};
+use crate::solver::ground::{Ground, GroundAlongY, Stretch, contact_loss_s};
 use crate::solver::slider::SliderState;
 use crate::solver::summary;
 use crate::solver::walk::Walk;
 
 /// Part of the largest of some vectors by which one may be off the line of all and be on it: rounding.
 const OFF: f64 = 8.0 * f64::EPSILON;
+
+/// What is on a line where all is: the table, `s`, `w`, displacements and velocities of storeys, the slope.
+const KINDS: usize = 6;
 
 /// The direction of all of a motion and of the initial state, if they have one, and the model along it as one of one
 /// direction, if that is what it is.
@@ -34,7 +37,8 @@ pub(in crate::solver) fn on_line(
     motion: &GroundMotion,
 ) -> Option<([f64; 2], Model)> {
     let turned = along_y(model);
-    let of = |axis: usize| -> [Vec<f64>; 5] {
+    let slope = model.slope_in_plane_m_per_s2();
+    let of = |axis: usize| -> [Vec<f64>; KINDS] {
         let model = [model, &turned][axis];
         let initial = model.initial();
         let table = match axis {
@@ -48,10 +52,12 @@ pub(in crate::solver) fn on_line(
             }
         };
         let [q, v] = storeys();
-        [table, vec![initial.sliding_displacement_m], vec![initial.sliding_velocity_m_per_s], q, v]
+        let start = [initial.sliding_displacement_m, initial.sliding_velocity_m_per_s];
+        let [s, w] = start.map(|value| vec![value]);
+        [table, s, w, q, v, vec![slope[axis]]]
     };
     let [x, y] = [of(0), of(1)];
-    let is_still = |axis: &[Vec<f64>; 5]| axis.iter().flatten().all(|value| *value == 0.0);
+    let is_still = |axis: &[Vec<f64>; KINDS]| axis.iter().flatten().all(|value| *value == 0.0);
     let direction = match [is_still(&x), is_still(&y)] {
         [_, true] => [1.0, 0.0],
         [true, _] => [0.0, 1.0],
@@ -61,19 +67,19 @@ pub(in crate::solver) fn on_line(
 }
 
 /// The direction of vectors of several kinds, if it is one: each kind is compared with its largest.
-fn common_direction(x: &[Vec<f64>; 5], y: &[Vec<f64>; 5]) -> Option<[f64; 2]> {
+fn common_direction(x: &[Vec<f64>; KINDS], y: &[Vec<f64>; KINDS]) -> Option<[f64; 2]> {
     let largest = |i: usize| {
         let vectors = x[i].iter().zip(&y[i]).map(|(x, y)| [*x, *y]);
         vectors.fold([0.0; 2], |most, vector| if norm(vector) > norm(most) { vector } else { most })
     };
-    let first = (0..5).map(largest).find(|vector| *vector != [0.0; 2])?;
+    let first = (0..KINDS).map(largest).find(|vector| *vector != [0.0; 2])?;
     let size = norm(first).copysign(if first[0] == 0.0 { first[1] } else { first[0] });
     let along = first.map(|value| value / size);
     let is_on_it = |i: usize| {
         let most = OFF * norm(largest(i));
         x[i].iter().zip(&y[i]).all(|(x, y)| cross(along, [*x, *y]).abs() <= most)
     };
-    (0..5).all(is_on_it).then_some(along)
+    (0..KINDS).all(is_on_it).then_some(along)
 }
 
 /// A response in one direction, with its history.
@@ -85,7 +91,7 @@ pub(in crate::solver) struct OnLine<'a> {
     /// System and ground in two directions.
     pub(in crate::solver) system: System,
     pub(in crate::solver) ground: Ground<'a>,
-    pub(in crate::solver) table_y: &'a [f64],
+    pub(in crate::solver) along_y: GroundAlongY<'a>,
     pub(in crate::solver) instructions: InstructionSet,
 }
 
@@ -111,12 +117,16 @@ impl OnLine<'_> {
             events: events.collect(),
             history: None,
         };
+        let overturning = in_plane.axes.each_ref().map(|axis| axis.overturning_ratio);
         let mut demands = Demands {
             max_sliding_displacement_m: in_plane.axes[0].max_sliding_displacement_m,
             min_sliding_displacement_m: in_plane.axes[0].min_sliding_displacement_m,
             residual_sliding_displacement_m: own.residual_sliding_displacement_m.abs(),
             reversal_count: 0,
-            overturning_ratio: None,
+            overturning_ratio: self
+                .system
+                .per_resisted
+                .and_then(|_| overturning.into_iter().try_fold(0.0, |sum, of| Some(sum + of?))),
             ..own.clone()
         };
         for event in &mut response.events {
@@ -303,8 +313,8 @@ impl OnLine<'_> {
         let mut least = least_at_knots(h, gain);
         let Some((first, _)) = parts.first() else { return least };
         let first = first.clone();
-        let Self { system, ground, table_y, instructions, .. } = self;
-        let mut plane = Plane::new((system, first), (ground, table_y), instructions, false);
+        let Self { system, ground, along_y, instructions, .. } = self;
+        let mut plane = Plane::new((system, first), (ground, along_y), instructions, false);
         for (state, stretch) in parts {
             let Stretch { from_s, to_s, .. } = stretch;
             plane.peak_speed = norm(state.w);
@@ -340,15 +350,15 @@ fn in_two_directions(mode: Mode) -> Mode {
 /// Solves a model under a motion that is along no axis.
 pub(in crate::solver) fn solve(
     (model, system): (&Model, System),
-    (ground, table_y): (Ground<'_>, &[f64]),
+    (ground, along_y): (Ground<'_>, GroundAlongY<'_>),
     instructions: InstructionSet,
     (with_history, pulse): (bool, Pulse<'_>),
 ) -> Result<Response, SolveError> {
-    let state = State::initial(&system, model);
+    let (state, turned) = (State::initial(&system, model), model.turned_to_y());
     let law = model.law(false);
     let (s, speed) = (state.s[0], norm(state.w));
     let units = 64 * (1 + system.modes()) as u32;
-    let phase = Plane::new((system, state), (ground, table_y), instructions, with_history);
+    let phase = Plane::new((system, state), (ground, along_y), instructions, with_history);
     let course =
         WalkState::new(SliderState::new(&law, s, speed), [s, speed], (Vec::new(), Vec::new()));
     let mut walk = Walk::new((phase, course), (ground, [0.0, model.normal_n()]), (pulse, units));
@@ -361,7 +371,7 @@ pub(in crate::solver) fn solve(
     };
     let [x, y] = phase.peaks.peak_place;
     let mut in_plane = InPlane {
-        axes: [of(model, Part::Axis(0)), of(&along_y(model), Part::Axis(1))],
+        axes: [of(model, Part::Axis(0)), of(&turned, Part::Axis(1))],
         peak_sliding_displacement_direction_rad: libm::atan2(y, x),
         least_sliding_speed_m_per_s: phase.least.speed,
         events: Vec::new(),

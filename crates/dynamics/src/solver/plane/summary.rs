@@ -61,6 +61,7 @@ pub(super) fn demands(
                 stick_count: count(EventKind::Stick),
                 closest_stop: Some(sliding.closest_stop).filter(|margin| margin.is_finite()),
                 gap_ratio: model.slider().gap_m().map(|gap_m| peak_m / gap_m),
+                overturning_ratio: plane.system.per_resisted.map(|_| peaks.overturning_ratio()),
                 ..by_part
             }
         }

@@ -2,7 +2,7 @@
 
 use super::mass::{Mass, Matrix, times};
 use super::rows::Rows;
-use super::vector::norm;
+use super::vector::{inner, norm};
 use crate::error::SolveError;
 use crate::linear;
 use crate::model::{Model, OscillatorInPlane, Structure};
@@ -42,6 +42,8 @@ pub(in crate::solver) struct System {
     pub(super) damper_n_s_per_m: f64,
     /// `1/R` in 1/m, 0 where there is no pendulum.
     pub(super) per_radius: f64,
+    /// `g sin θ` along x and y in m/s²: part of all accelerations `a` and `b`, not of what is told of them.
+    pub(super) slope: [f64; 2],
     /// The accelerations that friction holds, `μ_s N/M1`, and `μ_k/M1`: times `N` that which it takes.
     pub(super) hold: Disc,
     pub(super) kinetic_per_kg: IsotropicFriction,
@@ -60,6 +62,9 @@ pub(in crate::solver) struct System {
     pub(super) oscillators: Vec<f64>,
     /// What the modes and the block add to the overturning moment along x and y, where it is asked for.
     pub(super) overturning: [Option<(Rows, [f64; 2])>; 2],
+    /// One over the moment along x and y that the weight resists about an edge, in 1/(N m); none where one of both is not
+    /// asked for.
+    pub(super) per_resisted: Option<[f64; 2]>,
     /// Bound on the rates in rad/s.
     pub(in crate::solver) rate_rad_per_s: f64,
 }
@@ -108,6 +113,7 @@ impl System {
             stiffness_n_per_m: slider.stiffness_n_per_m,
             damper_n_s_per_m: model.slider().damper_n_s_per_m,
             per_radius: slider.per_radius,
+            slope: model.slope_in_plane_m_per_s2(),
             hold: slider.hold.times(per_kg),
             kinetic_per_kg: slider.kinetic.times(per_kg),
             omega2: if n == 0 {
@@ -127,6 +133,7 @@ impl System {
                 let along = if k == 0 { [block, 0.0] } else { [0.0, block] };
                 Some((Rows::new(&[place(k, if n == 0 { &[] } else { &arm })]), along))
             }),
+            per_resisted: model.per_resisted_moment_in_plane(),
             rate_rad_per_s: axes.iter().fold(0.0, |rate: f64, a| rate.max(a.slip_rate_rad_per_s)),
         })
     }
@@ -217,6 +224,7 @@ impl System {
             stiffness_n_per_m: slider.stiffness_n_per_m,
             damper_n_s_per_m,
             per_radius: slider.per_radius,
+            slope: model.slope_in_plane_m_per_s2(),
             hold: slider.hold.times(per_kg),
             kinetic_per_kg: slider.kinetic.times(per_kg),
             omega2,
@@ -228,6 +236,7 @@ impl System {
             with_block,
             oscillators: sizes.iter().map(|size| 1.0 / size).collect(),
             overturning,
+            per_resisted: model.per_resisted_moment_in_plane(),
             rate_rad_per_s,
         })
     }
@@ -244,6 +253,11 @@ impl System {
     /// `Ω` and `D`, where no damper couples the modes.
     pub(super) fn uncoupled(&self) -> Option<[&[f64]; 2]> {
         (!self.coupled).then_some([&self.omega2, &self.damping])
+    }
+
+    /// The slope's pull along the direction of an oscillator.
+    pub(super) fn slope_along(&self, oscillator: usize) -> f64 {
+        self.oscillators[oscillator] * inner(self.participation_of(oscillator), self.slope)
     }
 
     /// `L` of a mode.
@@ -369,7 +383,7 @@ pub(super) struct State {
     pub(super) rate: Vec<f64>,
 }
 
-/// Accelerations of the table along x and y and the normal force, each with its rate.
+/// Accelerations of the table along x and y, with the slope's pull, and the normal force, each with its rate.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Loads {
     pub(super) table: [[f64; 2]; 2],
@@ -383,9 +397,11 @@ impl State {
         let start = [model.initial(), turned.initial()];
         let (q, v) = match model.structure() {
             Some(_) => {
-                let own = turned.initial();
-                let given = [&own.storey_displacement_m, &own.storey_velocity_m_per_s];
-                let [q, v] = given.map(|list| [Vec::new(), list.clone().unwrap_or_default()]);
+                let of_modes = [
+                    model.initial_oscillators_in_plane_m(),
+                    turned.initial().storey_velocity_m_per_s.clone().unwrap_or_default(),
+                ];
+                let [q, v] = of_modes.map(|list| [Vec::new(), list]);
                 (q, v)
             }
             None => (
