@@ -530,7 +530,7 @@ impl Model {
         self.gravity_m_per_s2 * libm::sin(self.slider.tilt_rad)
     }
 
-    /// The same along x and along y, towards −x and −y.
+    /// The slope's pull along x and y, towards −x and −y, as accelerations of the table in m/s².
     #[must_use]
     pub fn slope_in_plane_m_per_s2(&self) -> [f64; 2] {
         self.slider.slope_sines().map(|sine| self.gravity_m_per_s2 * sine)
