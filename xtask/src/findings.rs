@@ -414,7 +414,7 @@ fn yield_displacement(lab: &Lab, text: &mut String) -> Outcome {
             );
             let json = lab.run(&[("yield".to_owned(), model)], &components, &[])?;
             let of_peak = ratios(&column(&json, "peak_sliding_displacement_m")?, &peaks);
-            let found = column(&json, "storeys[0].peak_acceleration_m_per_s2")?;
+            let found = column(&json, "storey1_peak_acceleration_m_per_s2")?;
             let of_acceleration = ratios(&found, &accelerations);
             let found = column(&json, "residual_sliding_displacement_m")?;
             let differences = found.iter().zip(&residuals).map(|(a, b)| (a - b).abs());
