@@ -445,7 +445,8 @@ fn yield_displacement(lab: &Lab, text: &mut String) -> Outcome {
         "\n**For design:** with D_y = 1 mm the peak of a run is off by up to a factor of {flat:.2} on a flat slider and {curved:.2} on \
          a pendulum, the residual by up to {flat_r:.2} and {curved_r:.2} of the peak, and the acceleration of the mass is up to \
          {flat_a:.2} and {curved_a:.2} of the exact one: the spring rings where stick is rigid.\n\n**Limits:** no damping in the \
-         spring; one direction; a rigid mass.\n"
+         spring; one direction; a rigid mass; records under which it hardly slides are among \
+         them.\n"
     );
     Ok(())
 }
