@@ -136,7 +136,7 @@ kinds! {
     ReadAlongLines "read_along_lines" Note,
     /// The record has a velocity at its end above 5 % of its peak velocity.
     RecordDrift "record_drift" Warning,
-    /// One file was named more than once.
+    /// The same file was named more than once.
     RecordNamedTwice "record_named_twice" Warning,
     /// Blocks were put in the order of their times.
     RecordsSorted "records_sorted" Warning,

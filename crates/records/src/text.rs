@@ -20,21 +20,16 @@ pub(super) struct Line<'a> {
     pub bytes: &'a [u8],
 }
 
-/// What bytes are that a program has packed, and what to do; `None` of all others.
+/// Of bytes that a program has packed, what is expected in their place and what they are; `None` of all others.
 #[must_use]
-pub fn packed(bytes: &[u8]) -> Option<&'static str> {
-    const PACKED: [(&[u8], &str); 3] = [
-        (
-            b"PK\x03\x04",
-            "a workbook or another packed file: save each sheet as CSV (File, Save As), or unpack it",
-        ),
-        (
-            b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1",
-            "a workbook of an old Excel: save each sheet as CSV (File, Save As)",
-        ),
-        (b"\x1F\x8B", "a compressed file: unpack it"),
+pub fn packed(bytes: &[u8]) -> Option<[&'static str; 2]> {
+    const SHEETS: &str = "a text file: of a workbook save each sheet as CSV (File, Save As)";
+    const PACKED: [(&[u8], [&str; 2]); 3] = [
+        (b"PK\x03\x04", [SHEETS, "a workbook or another packed file"]),
+        (b"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1", [SHEETS, "a workbook of an old Excel"]),
+        (b"\x1F\x8B", ["a text file: unpack it first", "a compressed file"]),
     ];
-    PACKED.into_iter().find(|(start, _)| bytes.starts_with(start)).map(|(_, what)| what)
+    PACKED.into_iter().find(|(start, _)| bytes.starts_with(start)).map(|(_, words)| words)
 }
 
 impl<'a> Text<'a> {
@@ -45,8 +40,8 @@ impl<'a> Text<'a> {
     pub fn new(source_name: &'a str, bytes: &'a [u8]) -> Result<Self, RecordError> {
         let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
         let text = Self { source_name, bytes };
-        if let Some(what) = packed(bytes) {
-            return Err(text.error_at_start("a text file", what));
+        if let Some([expected, found]) = packed(bytes) {
+            return Err(text.error_at_start(expected, found));
         }
         if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") {
             return Err(text.error_at_start("text in UTF-8 or ASCII", "UTF-16"));

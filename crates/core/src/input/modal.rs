@@ -93,9 +93,9 @@ pub fn read_modes(
     let texts: Vec<(usize, &str)> =
         files.iter().map(|(name, text)| (sources.add(name, text), *text)).collect();
     for (source, text) in &texts {
-        if let Some(what) = crate::record::packed(text.as_bytes()) {
+        if let Some([expected, found]) = crate::record::packed(text.as_bytes()) {
             let start = SourceSpan { source: *source, span: 0..0 };
-            return Err(sources.error(&start, "", "a text file", what));
+            return Err(sources.error(&start, "", expected, found));
         }
     }
     let mut table = match texts.iter().position(|(_, text)| text.contains(OPENSEES_TITLE)) {
