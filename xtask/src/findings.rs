@@ -216,13 +216,6 @@ fn head(text: &mut String, first: &str) {
     );
 }
 
-/// Those of a list that belong to designs which a test picks, the runs of a design beside each other.
-fn picked(values: &[f64], designs: &[Design], keep: impl Fn(&Design) -> bool) -> Vec<f64> {
-    let runs = values.len() / designs.len();
-    let kept = designs.iter().zip(values.chunks(runs)).filter(|(design, _)| keep(design));
-    kept.flat_map(|(_, values)| values.to_vec()).collect()
-}
-
 /// Both components at once over 100 % of one and 30 % of the other.
 fn hundred_and_thirty(lab: &Lab, text: &mut String) -> Outcome {
     let designs = Design::all();
@@ -237,33 +230,30 @@ fn hundred_and_thirty(lab: &Lab, text: &mut String) -> Outcome {
         let json = lab.run(&models, pairs, &[])?;
         let both = column(&json, "peak_sliding_displacement_m")?;
         let all = ratios(&both, &column(&json, "peak_sliding_displacement_100_30_m")?);
+        let runs = pairs[0].len();
         // Where a pair hardly slides nothing is designed for it.
-        let slides: Vec<bool> = both.iter().map(|m| *m > 0.005).collect();
-        let marked: Vec<f64> = all
-            .iter()
-            .zip(&slides)
-            .map(|(r, slides)| if *slides { *r } else { f64::NAN })
-            .collect();
-        let real = |values: Vec<f64>| -> Vec<f64> {
-            values.into_iter().filter(|value| value.is_finite()).collect()
+        let slid = both.iter().zip(all).enumerate();
+        let slid = slid.filter(|(_, (m, ratio))| **m > 0.005 && ratio.is_finite());
+        let slid: Vec<(Design, f64)> =
+            slid.map(|(run, (_, ratio))| (designs[run / runs], ratio)).collect();
+        let of = |keep: &dyn Fn(&Design) -> bool| -> Vec<f64> {
+            let kept = slid.iter().filter(|(design, _)| keep(design));
+            kept.map(|(_, ratio)| *ratio).collect()
         };
-        head(text, &format!("{}, {} {name}", "design", pairs[0].len()));
-        row(text, "all", &real(marked.clone()));
+        let values = of(&|_| true);
+        head(text, &format!("design, {runs} {name}"));
+        row(text, "all", &values);
         for friction in FRICTIONS {
-            let of = real(picked(&marked, &designs, |design| design.friction == friction));
-            row(text, &format!("μ = {friction}"), &of);
+            row(text, &format!("μ = {friction}"), &of(&|design| design.friction == friction));
         }
         for radius_m in RADII_M {
-            let of = real(picked(&marked, &designs, |design| design.radius_m == radius_m));
-            row(text, &format!("R = {radius_m} m"), &of);
+            row(text, &format!("R = {radius_m} m"), &of(&|design| design.radius_m == radius_m));
         }
         for structure_s in STRUCTURES_S {
-            let of = real(picked(&marked, &designs, |design| design.structure_s == structure_s));
             let what = structure_s.map_or("rigid".to_owned(), |s| format!("structure of {s} s"));
-            row(text, &what, &of);
+            row(text, &what, &of(&|design| design.structure_s == structure_s));
         }
         text.push('\n');
-        let values = real(marked);
         unsafe_by.push((
             fractile(&values, 0.5),
             fractile(&values, 0.84),

@@ -103,11 +103,10 @@ pub fn conclude(
 pub fn emit(
     args: &ResultArgs,
     folder: Option<OutputFolder>,
-    answer: Answer,
+    mut answer: Answer,
     inputs: &InputFiles,
 ) -> Result<ExitCode, Failure> {
     let sheet = answer::sheet(&answer, args.display_units);
-    let mut answer = answer;
     let histories = answer::histories(&mut answer);
     let tables = answer::tables(answer);
     let files: Vec<(String, &Table)> = tables

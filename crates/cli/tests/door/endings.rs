@@ -3,7 +3,7 @@
 
 use std::fs::File;
 use std::io::Write;
-use std::process::{Command, Stdio};
+use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use super::support::{BLOCK, Folder, message, output, script, start, starting, text};
@@ -109,9 +109,12 @@ fn missing(program: &str) -> bool {
     Command::new(program).arg("--version").output().is_err()
 }
 
-/// Runs until `when`, sends Ctrl-C, and expects a folder as it was.
-fn interrupted(folder: &Folder, arguments: &[&str], when: impl Fn(&Folder) -> bool) {
-    let before = folder.contents();
+/// Runs until `when` and sends Ctrl-C; what was printed by then.
+fn sent_an_interrupt(
+    folder: &Folder,
+    arguments: &[&str],
+    when: impl Fn(&Folder) -> bool,
+) -> Output {
     let child = start(&mut folder.command(arguments));
     let started = Instant::now();
     while !when(folder) {
@@ -122,6 +125,13 @@ fn interrupted(folder: &Folder, arguments: &[&str], when: impl Fn(&Folder) -> bo
     assert!(kill.wait().unwrap().success());
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130), "{}", text(&output.stderr));
+    output
+}
+
+/// Interrupts a run when `when` holds, and expects a folder as it was.
+fn interrupted(folder: &Folder, arguments: &[&str], when: impl Fn(&Folder) -> bool) {
+    let before = folder.contents();
+    let output = sent_an_interrupt(folder, arguments, when);
     assert_eq!((text(&output.stdout), text(&output.stderr)), (String::new(), String::new()));
     assert_eq!(folder.contents(), before);
 }
@@ -173,16 +183,8 @@ fn interrupted_pairs_go_on() {
         of.iter().map(String::as_str).collect()
     }
     let kept = || std::fs::read_to_string(folder.path().join("out/runs.kept")).unwrap_or_default();
-    let child = start(&mut folder.command(&words(&ida("out"))));
-    let started = Instant::now();
-    while kept().lines().count() < 3 {
-        assert!(started.elapsed() < Duration::from_secs(300), "nothing to interrupt");
-        std::thread::sleep(Duration::from_millis(2));
-    }
-    let mut kill = start(Command::new("kill").args(["-INT", &child.id().to_string()]));
-    assert!(kill.wait().unwrap().success());
-    let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(130), "{}", text(&output.stderr));
+    let begun = |_: &Folder| kept().lines().count() >= 3;
+    let output = sent_an_interrupt(&folder, &words(&ida("out")), begun);
     let said = text(&output.stderr);
     assert!(said.contains("are kept in out; the same command goes on with them"), "{said}");
     let count = kept().lines().count();

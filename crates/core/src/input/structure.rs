@@ -155,13 +155,9 @@ fn as_x(values: &Values, modes: usize) -> Result<bool, InputError> {
     if !values.has("structure.along_y") {
         return Ok(false);
     }
-    let of_modes = (1..=modes).flat_map(|j| {
-        ["participation_y", "effective_mass_y", "effective_mass_ratio_y"]
-            .map(|key| format!("structure.mode.{j}.{key}"))
-    });
     let points = 1..=values.count("structure.point");
     let of_points = points.map(|i| format!("structure.point.{i}.shape_y"));
-    match of_modes.chain(of_points).find(|path| values.has(path)) {
+    match keys_of_y(modes).chain(of_points).find(|path| values.has(path)) {
         Some(path) => {
             let expected = "nothing of y in modes and points, which are along y as along x by structure.along_y";
             Err(values.error(&path, expected, &path))
@@ -172,8 +168,13 @@ fn as_x(values: &Values, modes: usize) -> Result<bool, InputError> {
 
 /// Whether a mode says what it does along y.
 fn is_along_y(values: &Values, modes: usize) -> bool {
+    keys_of_y(modes).any(|path| values.has(&path))
+}
+
+/// The keys by which modes say what they do along y.
+fn keys_of_y(modes: usize) -> impl Iterator<Item = String> {
     let keys = ["participation_y", "effective_mass_y", "effective_mass_ratio_y"];
-    (1..=modes).any(|j| keys.iter().any(|key| values.has(&format!("structure.mode.{j}.{key}"))))
+    (1..=modes).flat_map(move |j| keys.map(|key| format!("structure.mode.{j}.{key}")))
 }
 
 /// Whether a mode or a point says what it does along x.

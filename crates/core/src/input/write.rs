@@ -26,7 +26,7 @@ struct List {
 enum Item {
     Value,
     Pair,
-    TomlTable,
+    Table,
 }
 
 impl List {
@@ -34,7 +34,7 @@ impl List {
         let item = |(_, item, entries): &(String, Item, Vec<String>)| match item {
             Item::Value => entries.join(", "),
             Item::Pair => format!("[{}]", entries.join(", ")),
-            Item::TomlTable => format!("{{ {} }}", entries.join(", ")),
+            Item::Table => format!("{{ {} }}", entries.join(", ")),
         };
         let items: Vec<String> = self.items.iter().map(item).collect();
         format!("{} = [{}]\n", self.key, items.join(", "))
@@ -83,7 +83,7 @@ pub(super) fn toml(values: &Values, motion: Motion<'_>) -> String {
         let (item, entry) = match inner {
             "" => (Item::Value, value(leaf)),
             inner if inner.parse::<usize>().is_ok() => (Item::Pair, value(leaf)),
-            inner => (Item::TomlTable, format!("{inner} = {}", value(leaf))),
+            inner => (Item::Table, format!("{inner} = {}", value(leaf))),
         };
         match list.items.last_mut() {
             Some((last, _, entries)) if last == number => entries.push(entry),

@@ -5,6 +5,7 @@
 //! said of a run names its case.
 
 use core::borrow::Borrow;
+use core::cell::OnceCell;
 
 use super::certified::{Certified, RunKind, Verdict, chosen, is_drawn};
 use super::demanded::TRAVEL_USED_UP;
@@ -349,8 +350,8 @@ struct OfModel<'a> {
     /// Numbers of its design and its bound.
     place: [usize; 2],
     running: Running<'a>,
-    /// Hash of its design, where runs are kept.
-    hash: Option<String>,
+    /// Hash of its design, once a run of it is kept.
+    hash: OnceCell<String>,
 }
 
 /// Runs one after the other: a model is prepared once for all of its runs, a motion for those in a row.
@@ -402,18 +403,18 @@ impl<'a, M: Clone + Send + Sync> OneThread<'a, M> {
         };
         let place = [case.design, case.bound];
         let at = models.iter().position(|of| of.place == place).unwrap_or_else(|| {
-            let hash = of.engine.kept().map(|_| kept::hash_of_design(parts));
             let running = Running::new(&parts.model, of.engine);
-            models.push(OfModel { place, running, hash });
+            models.push(OfModel { place, running, hash: OnceCell::new() });
             models.len() - 1
         });
         let OfModel { running, hash, .. } = &mut models[at];
         let known = Some(ready.known.clone());
         let of_record = of.hashes.get(case.record).and_then(Option::as_deref);
-        let keeper = of.engine.kept().zip(hash.as_deref().zip(of_record));
-        let keeper = keeper.filter(|_| turned_rad.is_none());
-        let keeper =
-            keeper.map(|(all, (model, record))| (all, kept::key(model, record, case.scale)));
+        let keeper = of.engine.kept().zip(of_record).filter(|_| turned_rad.is_none());
+        let keeper = keeper.map(|(all, of_record)| {
+            let of_design = hash.get_or_init(|| kept::hash_of_design(parts));
+            (all, kept::key(of_design, of_record, case.scale))
+        });
         let before = keeper.as_ref().and_then(|(all, key)| all.find(key));
         if let Some((answer, noticed)) = before.and_then(|line| kept::read(&line)) {
             return CaseRun { known, noticed, ..CaseRun::of(case, Ok(answer)) };
