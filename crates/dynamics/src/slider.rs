@@ -13,6 +13,7 @@ mod law;
 mod pressure;
 pub(crate) mod ranges;
 mod rate;
+mod ring;
 mod series;
 mod stop;
 
@@ -26,6 +27,7 @@ pub(crate) use pressure::Pressing;
 pub use pressure::PressureLaw;
 pub(crate) use rate::Coefficient;
 pub use rate::{RateCurve, RateLaw};
+pub(crate) use ring::Ring;
 pub use series::{Surface, SurfacesInSeries};
 pub use stop::{Contact, Stop, StopKind};
 

@@ -25,6 +25,7 @@ mod networks;
 mod orders;
 mod plane;
 mod plane_lines;
+mod plane_ring;
 mod plane_slope;
 mod pressure;
 mod properties;

@@ -49,26 +49,33 @@ impl Events {
         self.list.push(JudgedEvent { event, speed });
     }
 
-    /// The first knot, with the modes and the contact before it.
-    pub(super) fn begin(&mut self, h: &History, before: &[Mode], contact: Contact) {
+    /// The first knot, with the modes and the contact before it, and the speed into a stop; whether the contact changes.
+    pub(super) fn begin(
+        &mut self,
+        h: &History,
+        before: &[Mode],
+        (contact, speed): (Contact, f64),
+    ) -> bool {
         for i in 0..before.len() {
             if before[i] == Mode::Stick && h.modes(0)[i] != Mode::Stick {
                 self.push(h, 0, i, EventKind::Slip, 0.0);
             }
         }
-        self.touch(h, 0, contact);
+        self.touch(h, 0, contact, speed)
     }
 
-    /// Contact with the stop at a knot, after another.
-    fn touch(&mut self, h: &History, k: usize, before: Contact) {
+    /// Contact with the stop at a knot, after another, at a speed; whether it changes.
+    fn touch(&mut self, h: &History, k: usize, before: Contact, speed: f64) -> bool {
         let kind = h.contact.get(k).and_then(|after| contact_event(before, *after));
         if let Some(kind) = kind {
-            self.push(h, k, 0, kind, h.sliding_velocity_m_per_s[k].abs());
+            self.push(h, k, 0, kind, speed);
         }
+        kind.is_some()
     }
 
-    /// Passes to the knot `k`, at which the block has perhaps struck a rigid stop.
-    pub(super) fn pass(&mut self, h: &History, k: usize, struck: bool) {
+    /// Passes to the knot `k`, at which the block has perhaps struck a rigid stop, and goes into a stop at a speed; whether
+    /// contact with an elastic one changes.
+    pub(super) fn pass(&mut self, h: &History, k: usize, struck: bool, speed_into: f64) -> bool {
         let (before, after) = (h.modes(k - 1), h.modes(k));
         if struck {
             let speed = h.sliding_velocity_m_per_s[k - 1].abs();
@@ -98,9 +105,8 @@ impl Events {
             }
             self.push(h, k, i, kind, 0.0);
         }
-        if let Some(before) = h.contact.get(k - 1) {
-            self.touch(h, k, *before);
-        }
+        let before = h.contact.get(k - 1);
+        before.is_some_and(|before| self.touch(h, k, *before, speed_into))
     }
 
     /// The slider slides from the knot `k` on these surfaces.

@@ -133,6 +133,12 @@ pub(super) trait Directions {
     fn at_same_time(&mut self, k: usize) -> bool;
     /// The closest call of a slip of an interface that has ended.
     fn closest_call_of_slip(&mut self, i: usize, direction: Direction) -> Option<ClosestCall>;
+    /// Where the block is to a stop at a knot, and how fast it goes there: on one side of it a negative place.
+    fn at_stop(&self, k: usize) -> [f64; 2] {
+        self.stored(k, 0)
+    }
+    /// Judges the knot at which contact with a stop has changed.
+    fn touched(&mut self, _: usize) {}
     /// Judges the knot at which some mode has changed.
     fn changed(&mut self, _: usize) {}
     /// A phase of an interface begins.
@@ -274,10 +280,14 @@ where
     /// Goes from run to run in order of time.
     fn walk(&mut self) -> Result<(), Stopped> {
         let (h, last) = (self.h, self.h.len() - 1);
-        let [s, w] = self.stored(0, 0);
-        self.events.begin(h, &self.at_start, self.law.contact_at_start(s, w));
+        let [s, w] = self.at_stop(0);
+        let contact = self.law.contact_at_start(s, w);
+        let touched = self.events.begin(h, &self.at_start, (contact, w.abs()));
         if self.at_start != h.modes(0) {
             self.changed(0);
+        }
+        if touched {
+            self.touched(0);
         }
         for i in 0..h.interfaces {
             self.begin(i, 0);
@@ -322,11 +332,15 @@ where
             }
             self.close(i, before[i]);
         }
-        if struck || before != after || !h.contact.is_empty() {
-            self.events.pass(h, k, struck);
-        }
+        let touched = (struck || before != after || !h.contact.is_empty()) && {
+            let [_, speed] = self.at_stop(k);
+            self.events.pass(h, k, struck, speed.abs())
+        };
         if before != after {
             self.changed(k);
+        }
+        if touched {
+            self.touched(k);
         }
         for i in (0..after.len()).filter(changed) {
             self.begin(i, k);

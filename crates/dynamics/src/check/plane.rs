@@ -20,7 +20,7 @@ use super::law::Law;
 use super::outputs::Outputs;
 use super::{Certificate, MAX_RADIANS, unjudged, well_formed};
 use crate::error::Stopped;
-use crate::model::Model;
+use crate::model::{Model, Stop, StopKind};
 use crate::motion::GroundMotion;
 use crate::progress::{Cancel, Pulse};
 use crate::response::{History, HistoryAlongY, Response};
@@ -72,8 +72,15 @@ fn is_within(model: &Model) -> bool {
         && same(model.kinetic_friction())
         && slider.rate().is_none_or(fades_alike)
         && slider.series().is_none()
-        && model.stop().is_none()
+        && model.stop().is_none_or(is_ring)
         && model.contents().is_empty()
+}
+
+/// Whether a stop gives way and is the same all around.
+fn is_ring(stop: &Stop) -> bool {
+    let [one, other] = stop.gap_m;
+    let gives_way = matches!(stop.kind, StopKind::Elastic { .. });
+    gives_way && one == other && one.is_some_and(|gap_m| gap_m > 0.0)
 }
 
 /// The direction of the line through rest that all of a motion and of the start is on, where a model with this frame

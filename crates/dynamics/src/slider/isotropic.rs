@@ -1,7 +1,7 @@
 //! Sliders that are the same in all horizontal directions.
 
 use super::hold::Disc;
-use super::{Bearing, Direction, Pressing, RateCurve, Restoring, Slider};
+use super::{Bearing, Direction, Pressing, RateCurve, Restoring, Ring, Slider};
 
 /// What a slider does along any direction.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,6 +12,8 @@ pub(crate) struct Isotropic {
     /// `K1` in N/m without that of a pendulum, which is `N/R`: `1/R` in 1/m, 0 without one.
     pub(crate) stiffness_n_per_m: f64,
     pub(crate) per_radius: f64,
+    /// The stop around it.
+    pub(crate) ring: Option<Ring>,
 }
 
 /// `μ_k` by the sliding speed `r`.
@@ -197,19 +199,16 @@ impl Slider {
             }
         };
         let kinetic = IsotropicFriction { curve, pressing };
-        let refused = [
-            (self.stop().is_some(), "a stop"),
-            (fixed[0] != fixed[1] || !alike, "friction by direction"),
-        ];
-        if let Some((_, what)) = refused.into_iter().find(|(refused, _)| *refused) {
-            return Err(what);
+        if fixed[0] != fixed[1] || !alike {
+            return Err("friction by direction");
         }
+        let ring = self.stop().map(Ring::of).transpose()?;
         let (stiffness_n_per_m, per_radius) = match *restoring {
             Restoring::None => (0.0, 0.0),
             Restoring::Spring { stiffness_n_per_m } => (stiffness_n_per_m, 0.0),
             Restoring::Pendulum { radius_m } => (0.0, 1.0 / radius_m),
         };
         let hold = Disc { of_normal: fixed[0], pressing };
-        Ok(Isotropic { hold, kinetic, stiffness_n_per_m, per_radius })
+        Ok(Isotropic { hold, kinetic, stiffness_n_per_m, per_radius, ring })
     }
 }

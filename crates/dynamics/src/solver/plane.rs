@@ -11,6 +11,7 @@ mod mass;
 mod nodes;
 mod peaks;
 mod record;
+mod ring;
 mod rows;
 mod series;
 mod slip;
@@ -42,7 +43,7 @@ use crate::error::SolveError;
 use crate::linear::polynomial::ZERO;
 use crate::numerics::InstructionSet;
 use crate::response::{EventInPlane, EventKind, Mode};
-use crate::slider::Direction;
+use crate::slider::{Contact, Direction};
 
 pub(super) use self::straight::{OnLine, on_line, solve};
 pub(super) use self::system::System;
@@ -78,6 +79,10 @@ pub(super) struct Plane<'a> {
     near_s: f64,
     /// The last step was short because of rest, or of how fast its direction turns: its end is a knot.
     is_near_rest: bool,
+    /// What the contact with the stop has become where the last step has ended.
+    reached: Option<Contact>,
+    /// The largest force of the stop in N.
+    peak_stop_n: f64,
     series: PlaneSeries,
     influence: Influence,
     force: Force,
@@ -115,6 +120,8 @@ impl<'a> Plane<'a> {
             next_s: f64::INFINITY,
             near_s: f64::INFINITY,
             is_near_rest: false,
+            reached: None,
+            peak_stop_n: 0.0,
             series: PlaneSeries::new(&system, instructions),
             influence: Influence::new(instructions, again_s),
             force: Force::new(),
@@ -217,9 +224,10 @@ impl<'a> Plane<'a> {
                 ([block[0] - slope[0], block[1] - slope[1]], taken.map(|f| -system.block_kg * f))
             }
         };
-        let State { s, w, eta, rate } = &self.state;
+        let State { s, w, eta, rate, .. } = &self.state;
         let (s, w, g) = (*s, *w, &self.g);
-        let knot = Knot { time_s, mode, table, s, w, block, friction_n, eta, rate, g };
+        let contact = self.state.contact;
+        let knot = Knot { time_s, mode, contact, table, s, w, block, friction_n, eta, rate, g };
         recorder.store(system, &knot, row);
     }
 }
@@ -295,7 +303,9 @@ impl<'a> Events for Walk<'a, Plane<'a>> {
         let is_near_rest = self.phase.series.kind == Kind::Slip && self.phase.is_near_rest;
         // Where times are as close as that they tell no knot from the next.
         let instant_s = INSTANTS * f64::EPSILON * self.ground.times_s[stretch.interval];
-        if is_near_rest && to_s < stretch.to_s && to_s - at_s > instant_s {
+        if let Some(to) = self.phase.reached.take() {
+            self.change_contact(stretch, to_s, to);
+        } else if is_near_rest && to_s < stretch.to_s && to_s - at_s > instant_s {
             self.record(stretch, to_s, false);
         }
         Ok(to_s)
@@ -338,12 +348,14 @@ impl<'a> Events for Walk<'a, Plane<'a>> {
         phase.least.interrupt();
         let sliding_displacement_y_m = phase.state.s[1];
         phase.events.push(EventInPlane { direction, sliding_displacement_y_m });
+        self.touch_at_rest(at.time_s, direction);
         true
     }
 
     fn peaks_at_jump(&mut self, stretch: &Stretch) {
         let loads = self.phase.loads(stretch, 0.0);
         let phase = &mut self.phase;
+        phase.hold_stop();
         let kind = match self.course.block.mode {
             Mode::Stick => Kind::Stick,
             Mode::Slip(_) => {

@@ -3,7 +3,7 @@
 use slipstick::model::{AlongY, Block, Damping, Frame, InitialState, Model, Slider};
 use slipstick::motion::GroundMotion;
 use slipstick::response::Response;
-use slipstick::slider::{Friction, RateCurve, RateLaw};
+use slipstick::slider::{Friction, RateCurve, RateLaw, Stop};
 use slipstick::solver::exact;
 
 use super::by_modes::{by_modes, cut_and_turned};
@@ -57,6 +57,8 @@ pub struct System {
     pub vertical: Option<Vec<f64>>,
     /// `sin θ` of the tilt along x and y.
     pub slope: [f64; 2],
+    /// Gap, stiffness and damper of a stop around the block.
+    pub ring: Option<[f64; 3]>,
 }
 
 #[derive(Clone, Copy)]
@@ -143,7 +145,21 @@ impl System {
             table,
             vertical,
             slope: [0.0; 2],
+            ring: None,
         }
+    }
+
+    /// The same with a ring within what it would slide, and a start within it.
+    pub fn with_ring(&self, seed: u64) -> Self {
+        let mut r = Random::new(9_000_011 + seed);
+        let free_m = self.response().demands.peak_sliding_displacement_m;
+        let [x, y] = self.initial[0];
+        let gap_m = (free_m * r.between(0.2, 0.95)).max(1.01 * libm::hypot(x, y)).max(1e-4);
+        let total_kg = self.mass_kg + self.floors_kg.iter().sum::<f64>();
+        let rate = [5.0, 30.0, 150.0][(r.unit() * 3.0) as usize] * r.between(0.5, 2.0);
+        let ratio = if r.chance(0.3) { 0.0 } else { r.between(0.0, 0.6) };
+        let ring = [gap_m, total_kg * rate * rate, 2.0 * ratio * total_kg * rate];
+        Self { ring: Some(ring), ..self.clone() }
     }
 
     /// The same with friction by straight lines of the speed.
@@ -272,7 +288,12 @@ impl System {
         };
         let block = Block { mass_kg: self.mass_kg, width_m: Some(0.6), height_m: Some(0.4) };
         let [tilt_rad, tilt_y_rad] = self.slope.map(libm::asin);
-        let slider = Slider { damper_n_s_per_m: self.damper, tilt_rad, tilt_y_rad, ..slider };
+        let ends = match self.ring {
+            Some([gap_m, k, c]) => Stop::elastic([Some(gap_m); 2], k, c).into(),
+            None => slider.ends.clone(),
+        };
+        let damper_n_s_per_m = self.damper;
+        let slider = Slider { damper_n_s_per_m, tilt_rad, tilt_y_rad, ends, ..slider };
         Model::new(block, slider, frame, 9.80665, initial(0))
             .and_then(|model| model.with_along_y(along_y))
             .expect("a model")

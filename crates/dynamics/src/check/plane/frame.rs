@@ -17,7 +17,9 @@ use super::super::law::Law;
 use super::super::rate::SpeedLine;
 use super::super::structure::{Phase, StoreyDamping, Structure};
 use super::body::{Body, PointOfModes, parts_of};
-use crate::model::{Model, Structure as ByModes};
+use super::step::State;
+use crate::model::{Model, StopKind, Structure as ByModes};
+use crate::slider::Direction;
 
 /// A vector (x, y).
 pub(super) type Pair = [f64; 2];
@@ -57,11 +59,13 @@ pub(super) type Loads = [Load; 2];
 pub(super) struct Under<const N: usize> {
     pub(super) a: [Column<N>; 2],
     pub(super) normal: Column<N>,
+    /// Whether the block presses the stop around it.
+    pub(super) pressed: bool,
 }
 
 impl Under<1> {
-    pub(super) fn new(loads: &Loads) -> Self {
-        Self { a: loads.map(|load| [load.a]), normal: [loads[0].normal] }
+    pub(super) fn new(loads: &Loads, pressed: bool) -> Self {
+        Self { a: loads.map(|load| [load.a]), normal: [loads[0].normal], pressed }
     }
 }
 
@@ -79,7 +83,54 @@ pub(super) struct Forces<const N: usize> {
     pub(super) spring: [Column<N>; 2],
     /// `C1 w`.
     pub(super) damper: [Column<N>; 2],
+    /// What the stop around the block takes.
+    pub(super) stop: [Column<N>; 2],
     pub(super) push: [Column<N>; 2],
+}
+
+/// A stop around the block: with `ρ = |s|`, `n = s/ρ` and `δ = ρ − d` it takes `(k δ + c ρ̇) n` where it is pressed.
+#[derive(Clone, Copy)]
+pub(super) struct Ring {
+    pub(super) stiffness: f64,
+    pub(super) damper: f64,
+    gap_m: f64,
+}
+
+impl Ring {
+    fn of(model: &Model) -> Option<Self> {
+        let stop = model.stop()?;
+        let StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } = stop.kind else {
+            return None;
+        };
+        let gap_m = stop.gap_towards(Direction::Positive)?;
+        Some(Self { stiffness: stiffness_n_per_m, damper: damper_n_s_per_m, gap_m })
+    }
+
+    /// What it takes of a force on the block.
+    pub(super) fn force(&self, s: Pair, w: Pair) -> Pair {
+        let rho = norm(s);
+        let n = times(s, 1.0 / rho);
+        times(n, self.stiffness * (rho - self.gap_m) + self.damper * dot(n, w))
+    }
+
+    /// How that grows with `w` and with `s`, row by row:
+    /// `c n nᵀ` and `k n nᵀ + c n (w − ρ̇ n)ᵀ/ρ + (k δ + c ρ̇)(1 − n nᵀ)/ρ`.
+    pub(super) fn slopes(&self, s: Pair, w: Pair) -> [[Pair; 2]; 2] {
+        let rho = norm(s);
+        let n = times(s, 1.0 / rho);
+        let rate = dot(n, w);
+        let across = [0, 1].map(|i| (w[i] - rate * n[i]) / rho);
+        let hoop = (self.stiffness * (rho - self.gap_m) + self.damper * rate) / rho;
+        let by_w = n.map(|a| n.map(|b| self.damper * a * b));
+        let by_s = [0, 1].map(|i| {
+            [0, 1].map(|j| {
+                let one = if i == j { 1.0 } else { 0.0 };
+                n[i] * (self.stiffness * n[j] + self.damper * across[j])
+                    + hoop * (one - n[i] * n[j])
+            })
+        });
+        [by_w, by_s]
+    }
 }
 
 /// Masses, springs, dampers and friction in two horizontal directions.
@@ -93,6 +144,7 @@ pub(super) struct PlaneFrame<'a> {
     pub(super) damper: f64,
     /// `1/R` of a spring that follows `N`.
     pub(super) curvature_per_m: f64,
+    pub(super) stop: Option<Ring>,
     /// `g sin θ` along x and y: in all accelerations, not in what is told of them.
     pub(super) slope: Pair,
     /// One over `M_tot g width/2` along x and y, where both are given and a moment is asked for.
@@ -159,6 +211,7 @@ impl<'a> PlaneFrame<'a> {
             spring: x.spring,
             damper: x.damper,
             curvature_per_m,
+            stop: Ring::of(model),
             slope: model.slope_in_plane_m_per_s2(),
             per_resisted: per_resisted(model),
             masses_kg: x.masses_kg.iter().flat_map(|mass| [*mass; 2]).collect(),
@@ -168,7 +221,10 @@ impl<'a> PlaneFrame<'a> {
             damping: Rows::new(width, &damping),
             along,
             linear_rates: [fastest(Phase::Stick), fastest(Phase::Slip)],
-            rates: [fastest(Phase::Stick), fastest(Phase::Slip) + added + by_speed],
+            rates: [
+                fastest(Phase::Stick),
+                fastest(Phase::Slip).max(fastest(Phase::Pressed)) + added + by_speed,
+            ],
             frequency: x.frame_frequency().max(y.frame_frequency()),
             fixed: law.most(),
             most: law.most().max(law.most_sliding()),
@@ -215,6 +271,8 @@ impl<'a> PlaneFrame<'a> {
         let pull = libm::sqrt((slider.spring + 2.0 * sum(&stiffness)) / least_kg);
         let drag = (slider.damper + 2.0 * sum(&damping)) / least_kg;
         let added = libm::sqrt(normal / least_kg * curvature_per_m) + by_speed;
+        let stopped = Ring::of(model)
+            .map_or(0.0, |stop| libm::sqrt(stop.stiffness / least_kg) + stop.damper / least_kg);
         let linear_rates = [frequency.max(decay), frequency.max(pull).max(decay.max(drag))];
         Self {
             law,
@@ -224,6 +282,7 @@ impl<'a> PlaneFrame<'a> {
             spring: slider.spring,
             damper: slider.damper,
             curvature_per_m,
+            stop: Ring::of(model),
             slope: model.slope_in_plane_m_per_s2(),
             per_resisted: per_resisted(model),
             masses_kg: parts.iter().map(|part| part.mass_kg).collect(),
@@ -233,7 +292,7 @@ impl<'a> PlaneFrame<'a> {
             damping: Rows::new(n, &damping),
             along,
             linear_rates,
-            rates: [linear_rates[0], linear_rates[1] + added],
+            rates: [linear_rates[0], linear_rates[1] + added + stopped],
             frequency,
             fixed: law.most(),
             most: law.most().max(law.most_sliding()),
@@ -331,41 +390,56 @@ impl<'a> PlaneFrame<'a> {
             add(floor, 1.0, &self.damping.times(i, &v[2..]));
             (0..2).for_each(|axis| add(&mut base[axis], self.along[i][axis], floor));
         }
-        let mut forces =
-            Forces { base, spring: [[0.0; N]; 2], damper: [[0.0; N]; 2], push: [[0.0; N]; 2] };
+        let none = [[0.0; N]; 2];
+        let mut forces = Forces { base, spring: none, damper: none, stop: none, push: none };
         for at in 0..N {
             let own = [[x[0][at], x[1][at]], [v[0][at], v[1][at]]];
+            let stop = self.stopped(under.pressed, own);
             let under = (pair(&under.a, at), under.normal[at]);
-            let [spring, damper, push] = self.driven(pair(&base, at), own, under);
+            let [spring, damper, push] = self.driven((pair(&base, at), stop), own, under);
             for axis in 0..2 {
                 forces.spring[axis][at] = spring[axis];
                 forces.damper[axis][at] = damper[axis];
+                forces.stop[axis][at] = stop[axis];
                 forces.push[axis][at] = push[axis];
             }
         }
         forces
     }
 
-    /// `K1 s + N s/R`, `C1 w` and `p` where the structure pulls.
+    /// What the stop around the block takes.
     #[inline(always)]
-    fn driven(&self, base: Pair, [s, w]: [Pair; 2], (a, normal): (Pair, f64)) -> [Pair; 3] {
+    pub(super) fn stopped(&self, pressed: bool, [s, w]: [Pair; 2]) -> Pair {
+        self.stop.filter(|_| pressed).map_or([0.0; 2], |stop| stop.force(s, w))
+    }
+
+    /// `K1 s + N s/R`, `C1 w` and `p` where the structure pulls and the stop takes a force.
+    #[inline(always)]
+    fn driven(
+        &self,
+        (base, stop): (Pair, Pair),
+        [s, w]: [Pair; 2],
+        (a, normal): (Pair, f64),
+    ) -> [Pair; 3] {
         let stiffness = self.spring + self.curvature_per_m * normal;
         let (spring, damper) = (s.map(|s| stiffness * s), w.map(|w| self.damper * w));
         let a = self.body.carried(a);
-        let push = [0, 1].map(|k| (base[k] - spring[k] - damper[k]) / self.block_kg - a[k]);
+        let push =
+            [0, 1].map(|k| (base[k] - spring[k] - damper[k] - stop[k]) / self.block_kg - a[k]);
         [spring, damper, push]
     }
 
     /// `p` alone.
-    pub(super) fn push(&self, x: &[f64], v: &[f64], loads: &Loads) -> Pair {
+    pub(super) fn push(&self, State { x, v, pressed }: &State, loads: &Loads) -> Pair {
         let mut base = [0.0; 2];
-        for (list, units) in [x, v].into_iter().zip(&self.on_block) {
+        for (list, units) in [&x, &v].into_iter().zip(&self.on_block) {
             for (value, unit) in list[2..].iter().zip(units) {
                 (0..2).for_each(|axis| base[axis] += unit[axis] * value);
             }
         }
-        let under = (loads.map(|load| load.a), loads[0].normal);
-        let [_, _, push] = self.driven(base, [[x[0], x[1]], [v[0], v[1]]], under);
+        let (under, own) =
+            ((loads.map(|load| load.a), loads[0].normal), [[x[0], x[1]], [v[0], v[1]]]);
+        let [_, _, push] = self.driven((base, self.stopped(*pressed, own)), own, under);
         push
     }
 
@@ -391,7 +465,7 @@ impl<'a> PlaneFrame<'a> {
         slips: bool,
     ) -> Vec<f64> {
         let mut floors = vec![[0.0]; self.masses_kg.len()];
-        let under = Under { a: a.map(|a| [a]), normal: [0.0] };
+        let under = Under { a: a.map(|a| [a]), normal: [0.0], pressed: false };
         let states = [x, v].map(|list| list.as_chunks().0);
         let push = pair(&self.forces(states, &under, &mut floors).push, 0);
         let block = match slips {

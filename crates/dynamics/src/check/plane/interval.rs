@@ -87,7 +87,8 @@ impl<'a> PlaneJudge<'a> {
             }
             state_rounding =
                 f64::max(state_rounding, self.normal_rounding_of_state(&path.state, &loads[0]));
-            let stretch = Stretch { from_s: at_s, step_s: to_s - at_s, loads, line: None };
+            let (step_s, pressed) = (to_s - at_s, path.state.pressed);
+            let stretch = Stretch { from_s: at_s, step_s, loads, line: None, pressed };
             if slips {
                 self.slide(&mut path, &stretch)?;
             } else {
@@ -356,6 +357,7 @@ impl<'a> PlaneJudge<'a> {
         for (fastest, v) in path.fastest.iter_mut().zip(v) {
             *fastest = v.iter().fold(*fastest, |fastest, v| fastest.max(v.abs()));
         }
+        self.against_stop(path.knot, step);
         let (momentum, dissipation) = vectorize!(self.axes.stepper.instructions, _simd => {
             step.raise_rates(frame, &mut path.rates);
             (frame.momentum(v), frame.dissipation(v))
@@ -365,7 +367,8 @@ impl<'a> PlaneJudge<'a> {
             let power = dot(pair(&momentum, point), pair(&under.a, point));
             done -= weight * power;
             size += weight * power.abs();
-            damping += weight * dissipation[point];
+            let stop = pair(&step.acting.forces.stop, point);
+            damping += weight * (dissipation[point] + dot(stop, step.speed(point)));
             if step.slips {
                 friction += weight * frame.block_kg * step.slowings[point] * step.speeds[point];
             }
@@ -398,6 +401,18 @@ impl<'a> PlaneJudge<'a> {
         } else {
             self.look(step, 0);
         }
+    }
+
+    /// Judges the stop around the block at the points of a step.
+    fn against_stop(&mut self, k: usize, step: &Step) {
+        if self.frame().stop.is_none() || !step.slips {
+            return;
+        }
+        let x = step.acting.x();
+        let place = |point: usize| [x[0][point], x[1][point]];
+        let points = (0..POINTS).map(|point| (place(point), step.speed(point)));
+        let broken = points.map(|(s, w)| self.contact_excess(k, s, w)).fold(0.0, larger);
+        self.figures.excess = larger(self.figures.excess, broken);
     }
 
     /// Whether a step is near rest in a slip that was straight when it came there.

@@ -7,12 +7,12 @@ use super::super::judge::{Directions, Judge, JudgeInput, Run, Sizes};
 use super::super::law::StickDemand;
 use super::super::structure::{excess, larger};
 use super::super::{ClosestCall, DecisionKind};
-use super::frame::{Forces, Loads, Pair, PlaneFrame, Under, norm, pair, unit};
+use super::frame::{Forces, Loads, Pair, PlaneFrame, Under, dot, norm, pair, unit};
 use super::peaks::{Acting, Peaks, Tracked};
 use super::step::{State, Stepper};
 use super::{Lists, lists};
 use crate::error::Stopped;
-use crate::response::{HistoryAlongY, InPlane, Mode};
+use crate::response::{Contact, HistoryAlongY, InPlane, Mode};
 use crate::slider::Direction;
 
 /// A block that slows down to this part of its peak speed in a slip has come to rest if it holds.
@@ -128,7 +128,20 @@ impl<'a> PlaneJudge<'a> {
     pub(super) fn state(&self, k: usize) -> State {
         let states = (0..self.frame().degrees()).map(|degree| self.stored(k, degree));
         let (x, v) = states.map(|[x, v]| (x, v)).unzip();
-        State { x, v }
+        State { x, v, pressed: self.presses(k) }
+    }
+
+    /// Whether the block presses the stop around it from a knot on.
+    pub(super) fn presses(&self, k: usize) -> bool {
+        matches!(self.contact(k), Contact::Pressed(_))
+    }
+
+    /// By how much the contact at a knot breaks the law of the stop at a place with a velocity.
+    pub(super) fn contact_excess(&self, k: usize, s: Pair, w: Pair) -> f64 {
+        let Some(stop) = self.frame().stop else { return 0.0 };
+        let slack_m = self.instant_s * norm(w) + 8.0 * f64::EPSILON * self.figures.displacement[1];
+        let slack = [slack_m, stop.damper * self.velocity_rounding];
+        self.law.contact_excess(self.contact(k), along_radius(s, w), slack)
     }
 
     /// `s` at a knot.
@@ -172,12 +185,16 @@ impl<'a> PlaneJudge<'a> {
     /// All that acts in a state.
     pub(super) fn acting(&self, state: &State, loads: &Loads) -> Acting<1> {
         let values = state.x.iter().chain(&state.v);
-        Acting::new(self.frame(), values.map(|value| [*value]).collect(), Under::new(loads))
+        Acting::new(
+            self.frame(),
+            values.map(|value| [*value]).collect(),
+            Under::new(loads, state.pressed),
+        )
     }
 
     /// The push on the block in a state.
     pub(super) fn push(&self, state: &State, loads: &Loads) -> Pair {
-        self.frame().push(&state.x, &state.v, loads)
+        self.frame().push(state, loads)
     }
 
     /// Compares what is stored at a knot with the loads on one side of it: the accelerations of the table, the
@@ -187,8 +204,9 @@ impl<'a> PlaneJudge<'a> {
         let (h, y, frame) = (self.h, self.axes.along_y, self.frame());
         let state = self.state(k);
         let Acting { forces, floors, .. } = self.acting(&state, loads);
-        let Forces { base, spring, damper, push } = &forces;
-        let [base, spring, damper, push] = [base, spring, damper, push].map(|of| pair(of, 0));
+        let Forces { base, spring, damper, stop, push } = &forces;
+        let [base, spring, damper, stop, push] =
+            [base, spring, damper, stop, push].map(|of| pair(of, 0));
         let at = |x: &[f64], y: &[f64], i: usize| [x[i], y[i]];
         let own = at(&h.table_acceleration_m_per_s2, &y.table_acceleration_m_per_s2, k);
         let block = at(&h.block_acceleration_m_per_s2, &y.block_acceleration_m_per_s2, k);
@@ -216,9 +234,10 @@ impl<'a> PlaneJudge<'a> {
         }
         let pulled = [0, 1].map(|i| block[i] + frame.slope[i]);
         let inertia = frame.inertia(pulled);
-        let balance = [0, 1].map(|i| inertia[i] - base[i] + spring[i] + damper[i] - friction[i]);
+        let balance =
+            [0, 1].map(|i| inertia[i] - base[i] + spring[i] + damper[i] + stop[i] - friction[i]);
         side.defect = larger(side.defect, excess(norm(balance) - follows_n));
-        for vector in [inertia, base, spring, damper, friction] {
+        for vector in [inertia, base, spring, damper, stop, friction] {
             side.term = larger(side.term, norm(vector));
         }
         let n = h.storeys;
@@ -311,10 +330,13 @@ impl Directions for PlaneJudge<'_> {
             sizes.sliding = sizes.sliding.max(norm(state.speed()));
             kinetic.push(self.frame().kinetic_energy(&state.v));
             strain.push(self.frame().strain(&state.x));
+            let broken = self.contact_excess(k, self.place(k), state.speed());
+            self.figures.excess = larger(self.figures.excess, broken);
         }
         self.take_sizes(&sizes);
         let varies = self.ground.has_vertical();
-        self.books = EnergyBalance::new([kinetic, strain], 0.0, [varies, self.law.follows()]);
+        let stop_j = self.law.push(self.contact(0)).strain(norm(self.place(0)));
+        self.books = EnergyBalance::new([kinetic, strain], stop_j, [varies, self.law.follows()]);
         Ok(finite)
     }
 
@@ -384,6 +406,19 @@ impl Directions for PlaneJudge<'_> {
         self.turn(k);
     }
 
+    fn at_stop(&self, k: usize) -> [f64; 2] {
+        let (radius_m, rate) = along_radius(self.place(k), self.state(k).speed());
+        [radius_m, rate]
+    }
+
+    fn touched(&mut self, k: usize) {
+        let state = self.state(k);
+        let direction = Some(unit(state.speed()).unwrap_or_default());
+        let y_m = state.x[1];
+        let event = EventDirection { direction, unsure: 0.0, force_n: f64::INFINITY, y_m };
+        self.axes.event_directions.push(event);
+    }
+
     fn begins(&mut self, _: usize) {
         let plane = &mut self.axes;
         (plane.minima, plane.near_rest) = (Minima::default(), None);
@@ -398,6 +433,12 @@ impl Directions for PlaneJudge<'_> {
     fn compare_demands(&self, c: &mut Comparison, rounding: &Rounding) {
         self.compare_printed(c, rounding);
     }
+}
+
+/// `ρ = |s|` and `ρ̇`.
+pub(super) fn along_radius(s: Pair, w: Pair) -> (f64, f64) {
+    let radius_m = norm(s);
+    (radius_m, dot(s, w) / radius_m)
 }
 
 /// What one side of a knot tells.

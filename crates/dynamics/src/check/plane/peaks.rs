@@ -85,9 +85,11 @@ impl<const N: usize> Acting<N> {
 
     #[inline(always)]
     fn on_slider(&self, friction: &[Column<N>; 2]) -> [Column<N>; 2] {
-        let Forces { spring, damper, .. } = &self.forces;
+        let Forces { spring, damper, stop, .. } = &self.forces;
         [0, 1].map(|axis| {
-            core::array::from_fn(|i| friction[axis][i] - spring[axis][i] - damper[axis][i])
+            core::array::from_fn(|i| {
+                friction[axis][i] - spring[axis][i] - damper[axis][i] - stop[axis][i]
+            })
         })
     }
 }
@@ -144,7 +146,11 @@ impl Tracked<'_> {
             frame.points.as_ref().map(|points| points.iter().map(of_modes).collect());
         for axis in 0..2 {
             self.outputs.each(
-                [&v[axis], &slider[axis], &friction[axis], &acting.forces.base[axis], &[0.0; N]],
+                {
+                    let forces = &acting.forces;
+                    let [base, stop] = [&forces.base[axis], &forces.stop[axis]];
+                    [&v[axis], &slider[axis], &friction[axis], base, stop]
+                },
                 (frame.slope[axis], &block[axis]),
                 |point| match &by_modes {
                     Some(points) => points[point][axis],
@@ -227,12 +233,12 @@ impl Peaks {
             self.turn_of_body(tracked, acting, arc, certain);
             return;
         }
-        let Forces { push, spring, damper, .. } = &acting.forces;
-        let [push, spring, damper, a] =
-            [push, spring, damper, &acting.under.a].map(|columns| pair(columns, 0));
+        let Forces { push, spring, damper, stop, .. } = &acting.forces;
+        let [push, spring, damper, stop, a] =
+            [push, spring, damper, stop, &acting.under.a].map(|columns| pair(columns, 0));
         let slope = tracked.frame.slope;
         let block = unit([0, 1].map(|i| slope[i] - (push[i] + a[i])));
-        let slider = unit([0, 1].map(|i| spring[i] + damper[i]));
+        let slider = unit([0, 1].map(|i| spring[i] + damper[i] + stop[i]));
         let inside = |u: &Pair| {
             arc.is_none_or(|[from, to]| {
                 let turn = cross(from, to);

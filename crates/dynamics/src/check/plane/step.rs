@@ -1,7 +1,7 @@
 //! One step of the motion in a plane: the force of the slider by Gauss collocation, all else by linear maps.
 //!
 //! The force on the block over its mass, `φ = −f(r) u − κ s` with `r u = w` and `κ = N/(R M1)` of a spring that follows
-//! `N`, is the polynomial through its values at eight nodes. Structure, springs and dampers are linear ([`maps`]), so that
+//! `N`, and with what a stop around the block takes where it is pressed, is the polynomial through its values at eight nodes. Structure, springs and dampers are linear ([`maps`]), so that
 //! the block's motion at the nodes is linear in these values, and Newton's method has no other unknowns:
 //!
 //! ```text
@@ -39,6 +39,8 @@ const UNKNOWNS: usize = 2 * NODES;
 pub(super) struct State {
     pub(super) x: Vec<f64>,
     pub(super) v: Vec<f64>,
+    /// Whether the block presses the stop around it.
+    pub(super) pressed: bool,
 }
 
 impl State {
@@ -65,6 +67,8 @@ pub(super) struct Stretch {
     pub(super) loads: [Loads; 2],
     /// The straight line of friction by the speed that a slip is on.
     pub(super) line: Option<SpeedLine>,
+    /// Whether the block presses the stop around it.
+    pub(super) pressed: bool,
 }
 
 impl Stretch {
@@ -104,7 +108,7 @@ impl Step {
     pub(super) fn state(&self, point: usize) -> State {
         let [x, v] = [self.acting.x(), self.acting.v()]
             .map(|list| list.iter().map(|column| column[point]).collect());
-        State { x, v }
+        State { x, v, pressed: self.stretch.pressed }
     }
 
     /// The state at a part of the step.
@@ -115,7 +119,7 @@ impl Step {
         let shares = rule.shares(part);
         let of = |column: &Column<POINTS>| shares.iter().zip(column).map(|(s, x)| s * x).sum();
         let [x, v] = [self.acting.x(), self.acting.v()].map(|list| list.iter().map(of).collect());
-        State { x, v }
+        State { x, v, pressed: self.stretch.pressed }
     }
 
     /// The part of it at which the speed leaves the line of friction that it is on, if it does, to within a part of the
@@ -316,13 +320,14 @@ impl<'a> Stepper<'a> {
             linear.free([&from.x, &from.v], &stretch.loads, length, &mut states);
         });
         let mut forces = [[0.0; NODES]; 2];
-        let is_forced =
-            frame.curvature_per_m > 0.0 || stretch.loads.iter().any(|loads| !frame.is_free(loads));
+        let is_forced = frame.curvature_per_m > 0.0
+            || stretch.pressed
+            || stretch.loads.iter().any(|loads| !frame.is_free(loads));
         if slips && is_forced {
             forces = self.guess(from, stretch)?;
             let of = |place: usize| core::array::from_fn(|j| states[place][1 + j]);
             let free = [[of(0), of(1)], [of(d), of(d + 1)]];
-            let size = frame.largest_terms(&from.x, &from.v);
+            let size = frame.largest_terms(&from.x, &from.v).max(self.stop_terms(from));
             let settled = linear.with_influence(length, |influence| {
                 vectorize!(self.instructions, _simd => {
                     self.settle(&free, (stretch, size), influence, &mut forces)
@@ -356,13 +361,14 @@ impl<'a> Stepper<'a> {
     fn guess(&self, from: &State, stretch: Stretch) -> Option<[[f64; NODES]; 2]> {
         let frame = self.frame;
         let under = |i: usize| between(&stretch.loads, self.rule.c[i]);
+        let s = [from.x[0], from.x[1]];
+        let stopped = frame.stopped(stretch.pressed, [s, from.speed()]);
         let force = |loads: &Loads, u: Pair, speed: f64, s: Pair| {
             let normal = loads[0].normal;
             let [f, _] = frame.slowing_on(stretch.line, (normal, speed));
             let kappa = self.stiffness(normal);
-            [0, 1].map(|i| -f * u[i] - kappa * s[i])
+            [0, 1].map(|i| -f * u[i] - kappa * s[i] - stopped[i] / frame.block_kg)
         };
-        let s = [from.x[0], from.x[1]];
         if let Some(u) = unit(from.speed()) {
             let r = norm(from.speed());
             return Some(by_axis(|i| force(&under(i), u, r, s)));
@@ -386,6 +392,14 @@ impl<'a> Stepper<'a> {
         self.frame.curvature_per_m * normal / self.frame.block_kg
     }
 
+    /// The size of the terms of what the stop does, over the mass of the block.
+    fn stop_terms(&self, from: &State) -> f64 {
+        let terms = self.frame.stop.filter(|_| from.pressed).map_or(0.0, |stop| {
+            stop.stiffness * norm([from.x[0], from.x[1]]) + stop.damper * norm(from.speed())
+        });
+        terms / self.frame.block_kg
+    }
+
     /// `a` and `N` at the points of a stretch.
     #[inline(always)]
     fn under(&self, stretch: &Stretch) -> Under<POINTS> {
@@ -396,6 +410,7 @@ impl<'a> Stepper<'a> {
         Under {
             a: [column(&|loads| loads[0].a), column(&|loads| loads[1].a)],
             normal: column(&|loads| loads[0].normal),
+            pressed: stretch.pressed,
         }
     }
 
@@ -411,26 +426,37 @@ impl<'a> Stepper<'a> {
         let frame = self.frame;
         let under = self.under(&stretch);
         let kappa: [f64; NODES] = core::array::from_fn(|i| self.stiffness(under.normal[1 + i]));
-        let follows = frame.curvature_per_m > 0.0;
+        let stop = frame.stop.filter(|_| stretch.pressed);
+        let follows = frame.curvature_per_m > 0.0 || stop.is_some();
         let (mut last, mut newton) = (f64::INFINITY, None);
         for pass in 0..MOST_PASSES {
             let (mut change, mut size) = (0.0_f64, terms);
-            let (mut bends, mut off) = ([([[0.0; 2]; 2], 0.0); NODES], [0.0; UNKNOWNS]);
+            let (mut bends, mut off) = ([[[[0.0; 2]; 2]; 2]; NODES], [0.0; UNKNOWNS]);
             let w = moved(&influence.of_w, &free[1], forces);
             let s = if follows { moved(&influence.of_s, &free[0], forces) } else { free[0] };
             for j in 0..NODES {
-                let w = [w[0][j], w[1][j]];
+                let (s, w) = ([s[0][j], s[1][j]], [w[0][j], w[1][j]]);
                 let r = norm(w);
                 let [f, slope] = frame.slowing_on(stretch.line, (under.normal[1 + j], r));
-                let mut force = [-kappa[j] * s[0][j], -kappa[j] * s[1][j]];
-                bends[j].1 = kappa[j];
+                let mut force = s.map(|s| -kappa[j] * s);
+                bends[j][1] = [[kappa[j], 0.0], [0.0, kappa[j]]];
                 if f > 0.0 && r > 0.0 {
                     let u = [w[0] / r, w[1] / r];
                     force = [force[0] - f * u[0], force[1] - f * u[1]];
-                    bends[j].0 = [0, 1].map(|a| {
+                    bends[j][0] = [0, 1].map(|a| {
                         let across = |b: usize| if a == b { 1.0 } else { 0.0 } - u[a] * u[b];
                         [0, 1].map(|b| f / r * across(b) + slope * u[a] * u[b])
                     });
+                }
+                if let Some(stop) = &stop {
+                    let taken = stop.force(s, w);
+                    let by = stop.slopes(s, w);
+                    for axis in 0..2 {
+                        force[axis] -= taken[axis] / frame.block_kg;
+                        for (bend, by) in bends[j].iter_mut().zip(by) {
+                            (0..2).for_each(|b| bend[axis][b] += by[axis][b] / frame.block_kg);
+                        }
+                    }
                 }
                 size = size.max(norm(force));
                 (0..2).for_each(|axis| off[2 * j + axis] = force[axis] - forces[axis][j]);
@@ -481,7 +507,10 @@ impl<'a> Stepper<'a> {
         let ends = [0, POINTS - 1].map(|point| {
             let kappa = self.stiffness(acting.under.normal[point]);
             let of = |axis: usize| extrapolated(&forces[axis], usize::from(point > 0));
-            unit([0, 1].map(|axis| -of(axis) - kappa * acting.x()[axis][point]))
+            let stopped = pair(&acting.forces.stop, point);
+            unit([0, 1].map(|axis| {
+                -of(axis) - kappa * acting.x()[axis][point] - stopped[axis] / frame.block_kg
+            }))
         });
         let mut tail = 0.0;
         if sharpest > 0.0 {
@@ -556,19 +585,23 @@ struct Newton {
 }
 
 impl Newton {
-    /// Of how friction bends at each node, and of the spring that follows `N`; `None` where it is singular.
+    /// Of how the force bends at each node by `w` and by `s`; `None` where it is singular.
     #[inline(always)]
-    fn new(influence: &Influence, bends: &[([[f64; 2]; 2], f64); NODES]) -> Option<Self> {
+    fn new(influence: &Influence, bends: &[[[[f64; 2]; 2]; 2]; NODES]) -> Option<Self> {
         let mut rows = [[0.0; UNKNOWNS]; UNKNOWNS];
-        for (j, (bend, stiffness)) in bends.iter().enumerate() {
+        let (of_w, of_s) = (&influence.of_w, &influence.of_s);
+        for (j, [by_w, by_s]) in bends.iter().enumerate() {
+            let bends_by_s = *by_s != [[0.0; 2]; 2];
             for axis in 0..2 {
                 let row = &mut rows[2 * j + axis];
-                let [x, y] = &influence.of_w;
                 for i in 0..UNKNOWNS {
                     let (by, k) = (i % 2, i / 2);
-                    row[i] = bend[axis][0] * x[by][k][j] + bend[axis][1] * y[by][k][j];
-                    if *stiffness != 0.0 {
-                        row[i] += stiffness * influence.of_s[axis][by][k][j];
+                    let of = |bend: &[[f64; 2]; 2], of: &Blocks| {
+                        bend[axis][0] * of[0][by][k][j] + bend[axis][1] * of[1][by][k][j]
+                    };
+                    row[i] = of(by_w, of_w);
+                    if bends_by_s {
+                        row[i] += of(by_s, of_s);
                     }
                 }
                 row[2 * j + axis] += 1.0;

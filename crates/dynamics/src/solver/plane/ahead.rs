@@ -210,10 +210,13 @@ impl Plane<'_> {
         }
         let g = &mut self.g;
         system.restoring(&state.eta, &state.rate, g);
+        let stopped = system.stopped(state);
         let end = |(table, normal_n): ([f64; 2], f64), g| {
             let shear_n = system.shear_n(g);
-            let pull =
-                [0, 1].map(|k| system.pull(shear_n[k], state.s[k], 0.0, normal_n * state.s[k]));
+            let pull = [0, 1].map(|k| {
+                let pressed = normal_n * state.s[k];
+                system.pull(shear_n[k], state.s[k], 0.0, pressed) - stopped[k]
+            });
             StickEnd { table, pull, push: system.push(pull, table), shear_n, g }
         };
         let ends = [end(from, g), end(to, &ahead.g)];

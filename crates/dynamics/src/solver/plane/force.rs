@@ -137,8 +137,7 @@ impl Influence {
         for i in 0..4 + 2 * modes + 4 {
             let is = |place: usize| if place == i { 1.0 } else { 0.0 };
             let list = |from: usize| (from..from + modes).map(is).collect();
-            let state =
-                State { s: [is(0), is(1)], w: [is(2), is(3)], eta: list(4), rate: list(4 + modes) };
+            let state = State::free([is(0), is(1)], [is(2), is(3)], list(4), list(4 + modes));
             let [a, rate] = [0, 2].map(|from| [0, 1].map(|axis| is(4 + 2 * modes + from + axis)));
             let table = [[a[0], rate[0]], [a[1], rate[1]]];
             let loads = Loads { table, normal: [normal_n, 0.0] };
@@ -164,7 +163,7 @@ impl Influence {
             let w = system.moved(force);
             let of_mode = |j: usize| -inner(system.participation_of(j), w);
             let rate = (0..system.modes()).map(of_mode).collect();
-            let state = State { s: [0.0; 2], w, eta: vec![0.0; system.modes()], rate };
+            let state = State::free([0.0; 2], w, vec![0.0; system.modes()], rate);
             let scales = Scales { w: 1.0, ..Scales::default() };
             series.expand(system, (Kind::Frictionless, &state), (still, self.unit_s), &scales);
             self.pushed[axis] = series.w;
@@ -212,8 +211,9 @@ pub(super) struct Force {
     pub(super) w: [AtNodes; 2],
     pub(super) speeds: AtNodes,
     sizes: AtNodes,
-    /// `w` without friction, and `N` at the nodes.
+    /// `w` without friction and stop, what the stop around the block takes over `M1`, and `N` at the nodes.
     pub(super) free: [AtNodes; 2],
+    pub(super) stopped: [AtNodes; 2],
     normal_n: AtNodes,
     /// `w` without friction from the start of the step on, by powers of the time over a unit, how far that is exact, and
     /// the part of it that is a step.
@@ -232,6 +232,7 @@ impl Force {
             speeds: none,
             sizes: none,
             free: [none; 2],
+            stopped: [none; 2],
             normal_n: none,
             series: [ZERO; 2],
             unit_s: 1.0,
@@ -290,17 +291,20 @@ impl Force {
         }
     }
 
-    /// Directions to begin with, node by node, from rest, by how the velocity without friction changes there.
+    /// Directions to begin with, node by node, from rest, by how the velocity without friction and stop changes there, and by
+    /// what the stop takes.
     pub(super) fn guess_each(
         &mut self,
         law: &IsotropicFriction,
-        along: impl Fn([f64; 2]) -> [f64; 2],
+        along: impl Fn([f64; 2], [f64; 2]) -> [f64; 2],
     ) {
         self.sizes = self.normal_n.map(|n| law.at(0.0) * n);
         self.speeds = [0.0; NODES];
         let changes = self.series.each_ref().map(derivative);
         for (j, x) in nodes().at.iter().enumerate() {
-            let u = along(changes.each_ref().map(|change| value(change, self.part * x)));
+            let stopped = self.stopped.each_ref().map(|stopped| stopped[j]);
+            let change = changes.each_ref().map(|change| value(change, self.part * x));
+            let u = along(change, stopped.map(|stopped| self.unit_s * stopped));
             (self.u[0][j], self.u[1][j]) = (u[0], u[1]);
         }
     }
@@ -310,7 +314,8 @@ impl Force {
     fn move_by(&mut self, influence: &Influence) {
         let mut w = self.free;
         for (from, u) in self.u.iter().enumerate() {
-            let force: AtNodes = core::array::from_fn(|k| self.sizes[k] * u[k]);
+            let stopped = &self.stopped[from];
+            let force: AtNodes = core::array::from_fn(|k| self.sizes[k] * u[k] + stopped[k]);
             for (to, w) in w.iter_mut().enumerate() {
                 if to != from && !influence.crosses {
                     continue;

@@ -2,12 +2,13 @@
 
 use super::system::System;
 use super::vector::apart;
-use crate::response::{History, HistoryAlongY, Mode};
+use crate::response::{Contact, History, HistoryAlongY, Mode};
 
 /// What is known at a knot.
 pub(super) struct Knot<'a> {
     pub(super) time_s: f64,
     pub(super) mode: Mode,
+    pub(super) contact: Contact,
     /// Each along x and y: `Ü`, `s`, `w`, the block's total acceleration and friction.
     pub(super) table: [f64; 2],
     pub(super) s: [f64; 2],
@@ -43,6 +44,7 @@ impl Recorder {
         }
         x.time_s.push(knot.time_s);
         x.mode.push(knot.mode);
+        x.contact.extend(system.ring.map(|_| knot.contact));
         let both = |lists: [&mut Vec<f64>; 2], values: [f64; 2]| {
             for (list, value) in lists.into_iter().zip(values) {
                 list.push(value);

@@ -39,6 +39,8 @@ pub(super) struct PlaneSeries {
     pub(super) from: [f64; 2],
     pub(super) tail: f64,
     pub(super) shear: [Polynomial; 2],
+    /// What the stop around the block takes over `M1`, which is given.
+    pub(super) stopped: [Polynomial; 2],
     /// `η`, `η̇` and `g`, order by order.
     pub(super) eta: Vec<f64>,
     pub(super) rate: Vec<f64>,
@@ -94,6 +96,7 @@ impl PlaneSeries {
             from: [0.0; 2],
             tail: 0.0,
             shear: pair(),
+            stopped: pair(),
             eta: list(),
             rate: list(),
             g: list(),
@@ -161,7 +164,8 @@ impl PlaneSeries {
                 let before = if k > 0 { s[k - 1] } else { 0.0 };
                 let pressed = normal[0] * s[k] + normal[1] * before;
                 self.pull[axis][k] =
-                    system.pull(self.shear[axis][k], s[k], self.w[axis][k], pressed);
+                    system.pull(self.shear[axis][k], s[k], self.w[axis][k], pressed)
+                        - self.stopped[axis][k];
             }
             if kind == Kind::Stick {
                 let push = self.push(system, k);

@@ -6,9 +6,9 @@ use super::peaks::squared;
 use super::series::Kind;
 use super::stop::Instant;
 use super::system::Loads;
-use super::vector::{inner, norm};
-use crate::linear::polynomial::value;
-use crate::slider::IsotropicFriction;
+use super::vector::{apart, inner, norm};
+use crate::linear::polynomial::{ZERO, value};
+use crate::slider::{Contact, IsotropicFriction};
 use crate::solver::ground::Stretch;
 use crate::solver::slider::first_crossing;
 
@@ -36,6 +36,12 @@ const AT_BOUND: f64 = 1e-9;
 
 /// A speed is at a corner of friction by straight lines if it is as near to it as this part of it.
 const AT_CORNER: f64 = 16.0 * f64::EPSILON;
+
+/// A part of a step that is all of it.
+const WHOLE: f64 = 1.0 - 4.0 * f64::EPSILON;
+
+/// Most corrections of what depends on where the block is.
+const MOST_CORRECTIONS: usize = 40;
 
 /// Most cuts of a step to a corner: each comes nearer to it by the digits that the velocity has within a step.
 const MOST_CUTS: usize = 8;
@@ -75,17 +81,22 @@ impl Plane<'_> {
         self.force.forget();
         let (law, band) = self.law_at(at);
         let pressed_s = self.system.hold.reach(loads.normal);
-        let whole_s = self.system.within_reach(left_s).min(near_s).min(pressed_s);
-        let (mut step_s, mut cuts) = (whole_s.min(self.next_s), 0);
+        let whole_s = self.within_reach_of_stop(left_s).min(near_s).min(pressed_s);
+        let (mut step_s, mut cuts, mut aimed_at) = (whole_s.min(self.next_s), 0, None);
         for _ in 0..MOST_LENGTHS {
             match self.try_slip((at, &law), starts, (loads, step_s)) {
                 Tried::Shorter(part) => step_s *= part,
                 Tried::Stands(part) => {
-                    let corner = self.part_within(band).filter(|_| cuts < MOST_CUTS);
-                    if let Some(corner) = corner {
-                        (step_s, cuts) = (step_s * corner, cuts + 1);
+                    let corner = self.part_within(band);
+                    let change = self.contact_change(1.0);
+                    let contact = change.map(|(part, _)| part).filter(|part| *part < WHOLE);
+                    let first = corner.into_iter().chain(contact).reduce(f64::min);
+                    if let Some(first) = first.filter(|_| cuts < MOST_CUTS) {
+                        (step_s, cuts) = (step_s * first, cuts + 1);
+                        aimed_at = change.filter(|(part, _)| *part == first).map(|(_, to)| to);
                         continue;
                     }
+                    self.reached = change.map(|(_, to)| to).or(aimed_at);
                     let longer_s = step_s * part;
                     // What has been cut says nothing about how long a step may be.
                     let was_cut = step_s < self.next_s && self.next_s.is_finite();
@@ -125,7 +136,7 @@ impl Plane<'_> {
         let up = if high.is_finite() { distance(high, 1.0) } else { None };
         let down = if low > 0.0 { distance(low, -1.0) } else { None };
         let first = up.into_iter().chain(down).reduce(f64::min)?;
-        (first > 0.0 && first < 1.0 - 4.0 * f64::EPSILON).then_some(first)
+        (first > 0.0 && first < WHOLE).then_some(first)
     }
 
     /// How far a step may reach of a slip that slows down.
@@ -152,6 +163,8 @@ impl Plane<'_> {
         starts: bool,
         over: (Loads, f64),
     ) -> Tried {
+        self.series.stopped = [ZERO; 2];
+        self.guess_stop(over.1);
         if let Some(part) = self.go_freely(starts, over) {
             return Tried::Shorter(fitting(part));
         }
@@ -161,8 +174,8 @@ impl Plane<'_> {
         if starts && norm(at.push) <= at.friction * (1.0 + AT_BOUND) {
             // At its bound a block follows the push as that turns.
             let system = &self.system;
-            self.force.guess_each(law, |change| {
-                let p = system.required_friction(change);
+            self.force.guess_each(law, |change, stopped| {
+                let p = apart(system.required_friction(change), stopped);
                 let size = norm(p);
                 if size > 0.0 { p.map(|p| p / size) } else { along }
             });
@@ -214,8 +227,14 @@ impl Plane<'_> {
     ) -> Result<f64, f64> {
         // Of a pendulum under a vertical motion the influence changes along the step, which the series knows.
         let varies = loads.normal[1] != 0.0 && self.system.per_radius > 0.0;
+        let is_pressed = matches!(self.state.contact, Contact::Pressed(_));
+        let most = match (is_pressed, varies) {
+            (true, _) => MOST_CORRECTIONS,
+            (_, true) => 12,
+            _ => 1,
+        };
         let mut longer = 0.0;
-        for _ in 0..if varies { 12 } else { 1 } {
+        for pass in 1..=most {
             if !self.force.settle(law, &self.influence) {
                 return Err(if starts { 0.3 } else { 0.5 });
             }
@@ -226,8 +245,15 @@ impl Plane<'_> {
             }
             (self.series.friction, self.series.tail) = (friction, tail);
             self.series.from = along;
+            if is_pressed {
+                let by_stop = self.press_series();
+                if by_stop < 1.0 {
+                    return Err((0.9 * by_stop).clamp(0.05, 0.7));
+                }
+                longer = longer.min(by_stop);
+            }
             self.expand(Kind::Slip, (loads, step_s));
-            if !varies {
+            if !(varies || is_pressed) {
                 break;
             }
             let mut off = 0.0_f64;
@@ -238,8 +264,17 @@ impl Plane<'_> {
                     off = off.max(more.abs());
                 }
             }
-            if off <= 1e-16 * self.force.speeds.iter().fold(at.speed, |most, r| most.max(*r)) {
+            let rounding = if is_pressed { 4.0 * f64::EPSILON } else { 1e-16 };
+            let fastest = self.force.speeds.iter().fold(at.speed, |most, r| most.max(*r));
+            // From rest the velocity is a difference of what pushes and what holds.
+            let pushed =
+                if is_pressed { step_s * (norm(at.pull) + self.force.largest()) } else { 0.0 };
+            let settled = off <= rounding * (fastest + pushed);
+            if (!is_pressed || self.correct_stop()) && settled {
                 break;
+            }
+            if is_pressed && pass == most {
+                return Err(0.5);
             }
         }
         Ok(0.9 * longer)

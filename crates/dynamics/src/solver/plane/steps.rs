@@ -7,6 +7,7 @@ use super::stop::{Instant, REST};
 use super::system::Loads;
 use super::vector::{inner, norm};
 use crate::linear::polynomial::{DEGREE, Polynomial, value};
+use crate::slider::Contact;
 use crate::solver::ground::Stretch;
 use crate::solver::slider::{ROUNDING, falls_below, first_crossing, leading};
 
@@ -26,6 +27,7 @@ impl Plane<'_> {
     }
 
     pub(super) fn expand_stick(&mut self, loads: Loads, left_s: f64) {
+        self.hold_stop();
         let unit_s = self.system.within_reach(left_s);
         self.expand(Kind::Stick, (loads, unit_s));
     }
@@ -46,11 +48,12 @@ impl Plane<'_> {
     pub(super) fn rounding_of_distance(&self, loads: &Loads, push: [f64; 2], g: &[f64]) -> f64 {
         let (system, mut terms) = (&self.system, 0.0);
         let [_, inertia] = system.stretches();
+        let [stop, _] = system.stop_per_kg(self.state.contact);
         for axis in 0..2 {
             let l = &system.participation[axis];
             let shear: f64 = l.iter().zip(g).map(|(l, g)| (l * g).abs()).sum();
             let springs = system.stiffness_n_per_m + loads.normal[0] * system.per_radius;
-            let slider = springs * self.state.s[axis].abs();
+            let slider = (springs + stop * system.block_kg) * self.state.s[axis].abs();
             terms += (shear + slider) / system.block_kg + inertia * loads.table[axis][0].abs();
         }
         let holds = system.hold.radius(loads.normal[0]);
@@ -82,7 +85,10 @@ impl Plane<'_> {
                 self.state.w = [0.0; 2];
                 return at_s;
             }
-            return self.step_freely((stretch, at_s), loads);
+            return match self.state.contact {
+                Contact::Pressed(_) => self.press_freely((stretch, at_s), loads),
+                _ => self.step_freely((stretch, at_s), loads),
+            };
         }
         let at = self.instant(&loads);
         if at.speed > 0.0 {
@@ -101,6 +107,7 @@ impl Plane<'_> {
 
     /// One step without friction.
     fn step_freely(&mut self, (stretch, at_s): (&Stretch, f64), loads: Loads) -> f64 {
+        self.hold_stop();
         let mut unit_s = self.system.within_reach(stretch.to_s - at_s);
         loop {
             self.expand(Kind::Frictionless, (loads, unit_s));
@@ -111,12 +118,20 @@ impl Plane<'_> {
             }
             unit_s *= if part.is_nan() { 1e-4 } else { 4.0 * part };
         }
-        if let Some(part) = self.part_to_rest() {
+        self.end_freely(stretch, at_s)
+    }
+
+    /// Moves to the end of a series without friction, or to where the block rests or its contact with the stop changes.
+    pub(super) fn end_freely(&mut self, stretch: &Stretch, at_s: f64) -> f64 {
+        let change = self.contact_change(self.series.part);
+        let rest = self.part_to_rest().filter(|rest| change.is_none_or(|(part, _)| *rest <= part));
+        if let Some(part) = rest {
             let to_s = self.move_by(stretch, at_s, part);
             self.state.w = [0.0; 2];
             return to_s;
         }
-        let part = self.series.part;
+        let part = change.map_or(self.series.part, |(part, _)| part);
+        self.reached = change.map(|(_, to)| to);
         self.move_by(stretch, at_s, part)
     }
 
@@ -203,6 +218,7 @@ impl Plane<'_> {
     /// Looks for peaks up to the state, and adds to the path.
     fn look(&mut self, stretch: &Stretch, at_s: f64, part: f64) {
         self.look_for_peaks(stretch, at_s, part);
+        self.look_at_stop(part);
         self.path_m += path_m(&self.series, (part, &self.force.speeds));
         self.least.look(&self.series, (part, &self.force.speeds));
     }

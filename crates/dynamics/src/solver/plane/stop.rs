@@ -109,6 +109,8 @@ impl Instant {
             })
             .collect();
         system.restoring(&state.rate, &vec![0.0; modes], &mut of_rates);
+        let stop = system.stop_per_kg(state.contact);
+        let [stiffness, damper] = stop.map(|x| x * system.block_kg);
         let mut of_forces = vec![0.0; modes];
         system.restoring(&vec![0.0; modes], &forces, &mut of_forces);
         for axis in 0..2 {
@@ -116,9 +118,9 @@ impl Instant {
             let shear: f64 =
                 (0..modes).map(|j| l[j].abs() * (of_rates[j].abs() + of_forces[j].abs())).sum();
             let springs = system.stiffness_n_per_m + loads.normal[0] * system.per_radius;
-            let slider = springs * state.w[axis].abs()
+            let slider = (springs + stiffness) * state.w[axis].abs()
                 + (loads.normal[1] * system.per_radius * state.s[axis]).abs()
-                + system.damper_n_s_per_m * (largest + loads.table[axis][0].abs());
+                + (system.damper_n_s_per_m + damper) * (largest + loads.table[axis][0].abs());
             bound += (shear + slider) / system.block_kg + inertia * loads.table[axis][1].abs();
         }
         bound

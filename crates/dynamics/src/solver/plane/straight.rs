@@ -15,9 +15,10 @@ use crate::motion::GroundMotion;
 use crate::numerics::InstructionSet;
 use crate::progress::Pulse;
 use crate::response::{
-    Demands, EventInPlane, EventKind, History, HistoryAlongY, InPlane, Method, Mode,
+    Contact, Demands, EventInPlane, EventKind, History, HistoryAlongY, InPlane, Method, Mode,
     PointFactorsInPlane, Response, StoreyDemands,
 };
+use crate::slider::Ring;
 use crate::solver::course::WalkState;
 use crate::solver::ground::{Ground, GroundAlongY, Stretch, contact_loss_s};
 use crate::solver::slider::SliderState;
@@ -213,6 +214,7 @@ impl OnLine<'_> {
     /// is returned.
     fn turn_history(&self, h: &mut History) -> HistoryAlongY {
         h.mode.iter_mut().for_each(|mode| *mode = in_two_directions(*mode));
+        h.contact.iter_mut().for_each(|contact| *contact = in_plane_contact(*contact));
         let [x, y] = self.direction;
         let part = |list: &mut Vec<f64>| {
             let along_y = list.iter().map(|value| y * value + 0.0).collect();
@@ -282,6 +284,7 @@ impl OnLine<'_> {
                 w: [x * w, y * w],
                 eta: of(&h.storey_displacement_m),
                 rate: of(&h.storey_velocity_m_per_s),
+                contact: in_plane_contact(h.contact.get(k).copied().unwrap_or_default()),
             }
         };
         let gain = |k: usize| {
@@ -347,6 +350,15 @@ fn in_two_directions(mode: Mode) -> Mode {
     if mode == Mode::Stick { mode } else { SLIP }
 }
 
+/// A ring has one side.
+fn in_plane_contact(contact: Contact) -> Contact {
+    match contact {
+        Contact::Free => contact,
+        Contact::Pressed(_) => Ring::PRESSED,
+        Contact::Separated(_) => Ring::SEPARATED,
+    }
+}
+
 /// Solves a model under a motion that is along no axis.
 pub(in crate::solver) fn solve(
     (model, system): (&Model, System),
@@ -358,16 +370,18 @@ pub(in crate::solver) fn solve(
     let law = model.law(false);
     let (s, speed) = (state.s[0], norm(state.w));
     let units = 64 * (1 + system.modes()) as u32;
+    let contact = state.contact;
     let phase = Plane::new((system, state), (ground, along_y), instructions, with_history);
-    let course =
+    let mut course =
         WalkState::new(SliderState::new(&law, s, speed), [s, speed], (Vec::new(), Vec::new()));
+    course.slider.memory.contact = contact;
     let mut walk = Walk::new((phase, course), (ground, [0.0, model.normal_n()]), (pulse, units));
     walk.go()?;
     let Walk { phase, course, .. } = walk;
     let contact_loss_s = contact_loss_s(ground.times_s, ground.normal);
     let of = |model: &Model, part: Part| {
         let slides = course.block.mode == SLIP;
-        demands(model, &phase, (&course.events, &course.block.sliding, slides), part)
+        demands(model, &phase, (&course, slides), part)
     };
     let [x, y] = phase.peaks.peak_place;
     let mut in_plane = InPlane {

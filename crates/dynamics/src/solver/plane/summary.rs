@@ -4,8 +4,8 @@ use super::Plane;
 use super::peaks::Peak;
 use super::vector::norm;
 use crate::model::Model;
-use crate::response::{Demands, Event, EventKind};
-use crate::solver::course::Sliding;
+use crate::response::{Demands, EventKind, StopDemands};
+use crate::solver::course::WalkState;
 use crate::solver::summary::of_peaks;
 
 /// What a peak is of: the resultant, or an axis.
@@ -28,7 +28,7 @@ impl Part {
 pub(super) fn demands(
     model: &Model,
     plane: &Plane<'_>,
-    (events, sliding, slides): (&[Event], &Sliding, bool),
+    (course, slides): (&WalkState<'_>, bool),
     part: Part,
 ) -> Demands {
     let (peaks, s) = (&plane.peaks, plane.state.s);
@@ -46,7 +46,10 @@ pub(super) fn demands(
             ..by_part
         },
         Part::Resultant => {
+            let (events, sliding) = (&course.events, &course.block.sliding);
             let count = |kind| events.iter().filter(|event| event.kind == kind).count() as u64;
+            let peak_force_n = plane.peak_stop_n;
+            let stop = StopDemands { peak_force_n, ..course.slider.stopping.demands };
             let peak_m = peaks.sliding.norm;
             Demands {
                 peak_sliding_displacement_m: peak_m,
@@ -60,6 +63,7 @@ pub(super) fn demands(
                 slip_count: count(EventKind::Slip),
                 stick_count: count(EventKind::Stick),
                 closest_stop: Some(sliding.closest_stop).filter(|margin| margin.is_finite()),
+                stop: model.stop().map(|_| stop),
                 gap_ratio: model.slider().gap_m().map(|gap_m| peak_m / gap_m),
                 overturning_ratio: plane.system.per_resisted.map(|_| peaks.overturning_ratio()),
                 ..by_part

@@ -7,7 +7,7 @@ use crate::error::SolveError;
 use crate::linear;
 use crate::model::{Model, OscillatorInPlane, Structure};
 use crate::numerics::algebra::dot;
-use crate::slider::{Disc, IsotropicFriction};
+use crate::slider::{Contact, Disc, IsotropicFriction, Ring};
 use crate::solver::outputs::Arms;
 use crate::solver::tables::system_of;
 
@@ -42,6 +42,8 @@ pub(in crate::solver) struct System {
     pub(super) damper_n_s_per_m: f64,
     /// `1/R` in 1/m, 0 where there is no pendulum.
     pub(super) per_radius: f64,
+    /// The stop around the block.
+    pub(super) ring: Option<Ring>,
     /// `g sin θ` along x and y in m/s²: part of all accelerations `a` and `b`, not of what is told of them.
     pub(super) slope: [f64; 2],
     /// The accelerations that friction holds, `μ_s N/M1`, and `μ_k/M1`: times `N` that which it takes.
@@ -113,6 +115,7 @@ impl System {
             stiffness_n_per_m: slider.stiffness_n_per_m,
             damper_n_s_per_m: model.slider().damper_n_s_per_m,
             per_radius: slider.per_radius,
+            ring: slider.ring,
             slope: model.slope_in_plane_m_per_s2(),
             hold: slider.hold.times(per_kg),
             kinetic_per_kg: slider.kinetic.times(per_kg),
@@ -224,6 +227,7 @@ impl System {
             stiffness_n_per_m: slider.stiffness_n_per_m,
             damper_n_s_per_m,
             per_radius: slider.per_radius,
+            ring: slider.ring,
             slope: model.slope_in_plane_m_per_s2(),
             hold: slider.hold.times(per_kg),
             kinetic_per_kg: slider.kinetic.times(per_kg),
@@ -334,6 +338,26 @@ impl System {
         ((shear_n - self.damper_n_s_per_m * w) - springs) / self.block_kg
     }
 
+    /// What the stop around the block takes of a force on it, over `M1`.
+    pub(super) fn stopped(&self, state: &State) -> [f64; 2] {
+        match (&self.ring, state.contact) {
+            (Some(ring), Contact::Pressed(_)) => {
+                ring.force_n(state.s, state.w).map(|force_n| force_n / self.block_kg)
+            }
+            _ => [0.0; 2],
+        }
+    }
+
+    /// Stiffness and damper of the stop where it is pressed, each over `M1`.
+    pub(super) fn stop_per_kg(&self, contact: Contact) -> [f64; 2] {
+        match (&self.ring, contact) {
+            (Some(Ring { restraint, .. }), Contact::Pressed(_)) => {
+                [restraint.stiffness_n_per_m, restraint.damper_n_s_per_m].map(|x| x / self.block_kg)
+            }
+            _ => [0.0; 2],
+        }
+    }
+
     /// The mass-normalised amplitudes of displacements or velocities of the floors; of oscillators those along
     /// their directions are the second list.
     pub(super) fn amplitudes(&self, masses_kg: &[f64], of_floors: [&[f64]; 2]) -> Vec<f64> {
@@ -381,6 +405,8 @@ pub(super) struct State {
     pub(super) w: [f64; 2],
     pub(super) eta: Vec<f64>,
     pub(super) rate: Vec<f64>,
+    /// With the stop around the block.
+    pub(super) contact: Contact,
 }
 
 /// Accelerations of the table along x and y, with the slope's pull, and the normal force, each with its rate.
@@ -391,6 +417,11 @@ pub(super) struct Loads {
 }
 
 impl State {
+    /// One that no stop touches.
+    pub(super) fn free(s: [f64; 2], w: [f64; 2], eta: Vec<f64>, rate: Vec<f64>) -> Self {
+        Self { s, w, eta, rate, contact: Contact::Free }
+    }
+
     /// At t = 0.
     pub(super) fn initial(system: &System, model: &Model) -> Self {
         let turned = along_y(model);
@@ -410,9 +441,12 @@ impl State {
             ),
         };
         let masses_kg = &model.frame().masses_kg;
+        let s = start.map(|start| start.sliding_displacement_m);
+        let w = start.map(|start| start.sliding_velocity_m_per_s);
         Self {
-            s: start.map(|start| start.sliding_displacement_m),
-            w: start.map(|start| start.sliding_velocity_m_per_s),
+            s,
+            w,
+            contact: system.ring.map_or(Contact::Free, |ring| ring.contact_at_start(s, w)),
             eta: system.amplitudes(masses_kg, [&q[0], &q[1]]),
             rate: system.amplitudes(masses_kg, [&v[0], &v[1]]),
         }
@@ -421,8 +455,11 @@ impl State {
     /// `P`, leaving `g` behind.
     pub(super) fn pull(&self, system: &System, normal_n: f64, g: &mut [f64]) -> [f64; 2] {
         system.restoring(&self.eta, &self.rate, g);
-        let shear_n = system.shear_n(g);
-        [0, 1].map(|k| system.pull(shear_n[k], self.s[k], self.w[k], normal_n * self.s[k]))
+        let (shear_n, stopped) = (system.shear_n(g), system.stopped(self));
+        [0, 1].map(|k| {
+            let pressed = normal_n * self.s[k];
+            system.pull(shear_n[k], self.s[k], self.w[k], pressed) - stopped[k]
+        })
     }
 }
 

@@ -1,0 +1,148 @@
+//! A stop around the block in two horizontal directions: closed forms, what one direction does, what turning must not
+//! change, and what a certificate says.
+
+// Helpers of tests may panic as tests do.
+#![allow(clippy::expect_used)]
+
+use crate::common::random_in_plane::{Random, System};
+use crate::plane::{agree, all_agree, turned};
+use slipstick::check::check;
+use slipstick::model::{AlongY, Block, Damping, Frame, InitialState, Model, Slider};
+use slipstick::motion::GroundMotion;
+use slipstick::response::{Contact, EventKind, Response};
+use slipstick::slider::{Friction, Stop};
+use slipstick::solver::exact;
+
+fn certified(seed: u64, system: &System) -> Response {
+    let (model, motion) = (system.model(), system.motion());
+    let response = exact(&model, &motion).expect("a response");
+    let certificate = check(&model, &motion, &response);
+    assert!(certificate.holds(), "seed {seed}: {certificate:?}");
+    response
+}
+
+/// A ring that is not reached changes no bit.
+#[test]
+fn a_ring_that_is_not_reached_changes_nothing() {
+    for seed in 0..12 {
+        let free = System::random(seed, false);
+        let mut within = free.clone();
+        let own = free.response();
+        within.ring = Some([1.001 * own.demands.peak_sliding_displacement_m + 1e-6, 1e6, 1e3]);
+        let ringed = certified(seed, &within);
+        let stop = ringed.demands.stop.expect("a stop");
+        assert_eq!((stop.contact_count, stop.peak_force_n), (0, 0.0));
+        assert_eq!(agree(&own, &ringed), Ok(0.0), "seed {seed}");
+        let s = |r: &Response| r.history.as_ref().map(|h| h.sliding_displacement_m.clone());
+        assert_eq!(s(&own), s(&ringed), "seed {seed}");
+    }
+}
+
+/// A block without friction that flies into a ring keeps its energy and its moment about the centre, and leaves as fast
+/// as it came, along the mirrored path.
+#[test]
+fn a_ring_without_friction_and_damper_is_a_mirror() {
+    let start = |s: f64, w: f64| InitialState {
+        sliding_displacement_m: s,
+        sliding_velocity_m_per_s: w,
+        ..InitialState::rest()
+    };
+    let ends = Stop::elastic([Some(0.2); 2], 4e5, 0.0).into();
+    let slider = Slider { ends, ..Slider::new(Friction::new(0.0, 0.0).expect("friction")) };
+    let block = Block { mass_kg: 250.0, width_m: None, height_m: None };
+    let along_y = AlongY {
+        stiffnesses_n_per_m: Vec::new(),
+        damping: Damping::Ratio(0.0),
+        width_m: None,
+        initial: start(-0.1, 0.9),
+    };
+    let model = Model::new(block, slider, Frame::none(), 9.81, start(0.05, 1.2))
+        .and_then(|model| model.with_along_y(along_y))
+        .expect("a model");
+    let still = || vec![0.0; 200];
+    let motion = GroundMotion::evenly_spaced(0.01, still(), None)
+        .and_then(|motion| motion.with_y(still()))
+        .expect("a motion");
+    let response = exact(&model, &motion).expect("a response");
+    let certificate = check(&model, &motion, &response);
+    assert!(certificate.holds(), "{certificate:?}");
+    let x = response.history.as_ref().expect("a history");
+    let y = response.in_plane.as_ref().and_then(|plane| plane.history.as_ref()).expect("along y");
+    let mut contacts = 0;
+    for k in 0..x.len() {
+        let (s_x, s_y) = (x.sliding_displacement_m[k], y.sliding_displacement_m[k]);
+        let (w_x, w_y) = (x.sliding_velocity_m_per_s[k], y.sliding_velocity_m_per_s[k]);
+        let moment = s_x * w_y - s_y * w_x;
+        assert!((moment - (0.05 * 0.9 + 0.1 * 1.2)).abs() <= 1e-13, "{moment}");
+        let depth = libm::hypot(s_x, s_y) - 0.2;
+        let pressed = x.contact[k] != Contact::Free;
+        contacts += u32::from(pressed);
+        let stored = if pressed { 4e5 * depth * depth / 250.0 } else { 0.0 };
+        let energy = w_x * w_x + w_y * w_y + stored;
+        assert!((energy - 2.25).abs() <= 2e-13, "{energy}");
+        assert!(pressed == (depth > 0.0) || depth.abs() <= 1e-15, "{depth}");
+    }
+    let stop = response.demands.stop.expect("a stop");
+    assert!(contacts > 20 && stop.contact_count >= 4, "{contacts} {stop:?}");
+    // The radial speed of each impact is what the moment leaves of the speed.
+    let radial = (2.25_f64 - (0.165 / 0.2) * (0.165 / 0.2)).sqrt();
+    assert!((stop.peak_impact_speed_m_per_s - radial).abs() <= 1e-13, "{stop:?}");
+    let leaves = response.events.iter().filter(|event| event.kind == EventKind::Leave).count();
+    assert!(leaves as u64 + 1 >= stop.contact_count);
+}
+
+/// Beside a line by next to nothing the motion is solved in two directions, and is that of one with the same stop. (Without
+/// kinetic friction a block beside the line passes rest where one on it is held.)
+#[test]
+fn prop_struck_head_on_is_one_direction() {
+    let mut struck = 0;
+    all_agree("beside a line", true, |seed, system| {
+        let mut system = system.clone();
+        system.friction[1] = system.friction[1].max(0.5 * system.friction[0]);
+        let mut beside = system.along_a_line(0.0).with_ring(seed);
+        let straight = beside.along_x();
+        beside.table[1] = beside.table[0].iter().map(|x| 1e-15 * x * x).collect();
+        (straight, beside.response())
+    });
+    for seed in 0..12 {
+        let system = System::random(seed, true).along_a_line(0.0).with_ring(seed);
+        let [one, both] = [system.along_x(), certified(seed, &system)];
+        let stops = [one, both].map(|r| r.demands.stop.expect("a stop"));
+        assert_eq!(stops[0], stops[1], "seed {seed}");
+        struck += stops[0].contact_count;
+    }
+    assert!(struck > 12, "{struck}");
+}
+
+#[test]
+fn prop_turning_all_vectors_turns_the_response() {
+    all_agree("turned within a ring", true, |seed, system| {
+        let system = system.with_ring(seed);
+        (system.response(), system.changed(turned(0.3 + 0.7 * seed as f64)).response())
+    });
+}
+
+fn drawn_are_certified(seeds: core::ops::Range<u64>) {
+    let mut struck = 0;
+    let all = seeds.end - seeds.start;
+    for seed in seeds {
+        let system = System::random(seed, false);
+        let mut r = Random::new(seed);
+        let system = if r.chance(0.2) { system.with_lines(seed) } else { system };
+        let system = if r.chance(0.2) { system.on_a_slope(seed) } else { system };
+        let response = certified(seed, &system.with_ring(seed));
+        struck += u64::from(response.demands.stop.is_some_and(|stop| stop.contact_count > 0));
+    }
+    assert!(2 * struck > all, "{struck}");
+}
+
+#[test]
+fn prop_random_systems_are_certified() {
+    drawn_are_certified(0..40);
+}
+
+#[test]
+#[ignore = "minutes: cargo xtask nightly"]
+fn prop_many_random_systems_are_certified() {
+    drawn_are_certified(0..2000);
+}
