@@ -247,6 +247,15 @@ impl Model {
         self.block.mass_kg - missing
     }
 
+    /// Mass of each point in kg: of the floors of a frame, of a structure by its modes where all of its points have one.
+    #[must_use]
+    pub fn point_masses_kg(&self) -> Option<Vec<f64>> {
+        match &self.structure {
+            Some(structure) => structure.points.iter().map(|point| point.mass_kg).collect(),
+            None => Some(self.frame.masses_kg.clone()),
+        }
+    }
+
     /// Mass of each point and its height above the sliding surface, in kg and m, where block and points have
     /// what an overturning moment is made of.
     #[must_use]

@@ -351,6 +351,8 @@ pub struct StoreyDemands {
     pub peak_drift_ratio: Option<f64>,
     /// Velocity relative to the floor below in m/s.
     pub peak_drift_velocity_m_per_s: f64,
+    /// Shear of the storey in N: what moves all above it; of points of a structure by its modes where all have a mass.
+    pub peak_shear_n: Option<f64>,
 }
 
 /// What the response asks of the stop.

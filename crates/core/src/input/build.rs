@@ -159,15 +159,21 @@ fn restoring(values: &Values, total_mass_kg: f64) -> Result<Restoring, InputErro
     Ok(spring.map_or(Restoring::None, |stiffness_n_per_m| Restoring::Spring { stiffness_n_per_m }))
 }
 
+/// Gaps of a stop towards +x and −x, in m.
+fn stop_gaps_m(values: &Values) -> [Option<f64>; 2] {
+    match values.number("slider.stop.gap") {
+        Some(gap_m) => [Some(gap_m); 2],
+        None => {
+            ["positive", "negative"].map(|side| values.number(&format!("slider.stop.gap.{side}")))
+        }
+    }
+}
+
 fn stop(values: &Values, block: &Block) -> Result<Option<Stop>, InputError> {
     if !values.has("slider.stop") {
         return Ok(None);
     }
-    let side = |side: &str| values.number(&format!("slider.stop.gap.{side}"));
-    let gap_m = match values.number("slider.stop.gap") {
-        Some(gap_m) => [Some(gap_m); 2],
-        None => [side("positive"), side("negative")],
-    };
+    let gap_m = stop_gaps_m(values);
     if let Some(restitution) = values.number("slider.stop.restitution") {
         if restitution > 1.0 {
             return Err(values.wrong("slider.stop.restitution", "a number from 0 to 1"));
@@ -478,13 +484,19 @@ fn initial(values: &Values, storeys: usize) -> Result<[InitialState; 2], InputEr
     }))
 }
 
+/// Whether a stop has one gap all around, in which the block can move.
+fn has_one_gap(values: &Values) -> bool {
+    let [one, other] = stop_gaps_m(values);
+    one == other && one.is_some_and(|gap_m| gap_m > 0.0)
+}
+
 /// Refuses what is not solved in two directions.
 fn refuse_in_plane(values: &Values) -> Result<(), InputError> {
     let mut keys = vec![
         "slider.asymmetry",
         "slider.static_friction.positive",
         "slider.kinetic_friction.positive",
-        "slider.stop",
+        "slider.stop.restitution",
         "slider.surface",
         "slider.triple",
         "contents",
@@ -492,11 +504,15 @@ fn refuse_in_plane(values: &Values) -> Result<(), InputError> {
     if values.text("analysis.method") == Some("stepwise") {
         keys.push("analysis.method");
     }
+    if values.has("slider.stop") && !has_one_gap(values) {
+        keys.insert(0, "slider.stop.gap");
+    }
     match keys.into_iter().find(|path| values.has(path)) {
         Some(path) => {
             let expected = "a model that is solved in two directions: one surface whose \
-                            friction is the same in all directions, without \
-                            stop or contents, by the exact method";
+                            friction is the same in all directions, without contents \
+                            or a stop other than an elastic one with the same gap all around, by the \
+                            exact method";
             let apart = ", or the components of pairs run by themselves, pairs = separate";
             let apart = if values.in_plane { apart } else { "" };
             Err(values.error(path, format!("{expected}{apart}"), path))

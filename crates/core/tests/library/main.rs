@@ -33,6 +33,7 @@ mod records;
 mod reference;
 mod sample_records;
 mod screening;
+mod shears;
 mod slider;
 mod slider_force;
 mod structure;

@@ -301,6 +301,7 @@ fn of_peaks(
     }
     let points = if model.structure().is_some() { &d.points } else { &d.storeys };
     let part = if model.structure().is_some() { "point" } else { "storey" };
+    let has_masses = model.point_masses_kg().is_some();
     for (i, storey) in points.iter().enumerate().take(n) {
         c.of_part(part, i, "peak_displacement_m");
         c.within(storey.peak_displacement_m, own.peak(Output::Displacement(i)), near_m);
@@ -309,6 +310,9 @@ fn of_peaks(
         c.of_part(part, i, "peak_drift_velocity_m_per_s");
         let fast = own.peak(Output::DriftVelocity(i));
         c.within(storey.peak_drift_velocity_m_per_s, fast, rounding.velocity_m_per_s);
+        c.of_part(part, i, "peak_shear_n");
+        let shear = has_masses.then(|| own.peak(Output::StoreyShear(i)));
+        c.optional(storey.peak_shear_n, shear, force_n);
         let near = force_n / mass_kg(i);
         c.of_part(part, i, "peak_acceleration_m_per_s2");
         c.within(storey.peak_acceleration_m_per_s2, own.peak(Output::Acceleration(i)), near);

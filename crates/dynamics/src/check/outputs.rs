@@ -20,6 +20,8 @@ pub(super) struct Outputs {
     /// Of those, point by point: what the oscillators add, and what of the motion is the block's.
     of_modes: Option<Vec<(Vec<f64>, f64)>>,
     contents: usize,
+    /// Masses of the points in kg, where all have one, and floors and masses of contents: of the shears of storeys.
+    masses: Option<(Vec<f64>, Vec<(usize, f64)>)>,
 }
 
 impl Outputs {
@@ -35,7 +37,10 @@ impl Outputs {
             let of = |i: usize| structure.modes.iter().map(move |mode| mode.points[i]);
             (0..points).map(|i| (of(i).collect(), 1.0 - of(i).sum::<f64>())).collect()
         });
-        Self { arm, points, of_modes, contents }
+        let of_contents = || model.contents().iter().map(|c| (c.floor, c.mass_kg)).collect();
+        let masses = model.point_masses_kg().filter(|_| points > 1);
+        let masses = masses.map(|points_kg| (points_kg, of_contents()));
+        Self { arm, points, of_modes, contents, masses }
     }
 
     /// How many there are, with the force of a stop, which stands last.
@@ -106,6 +111,21 @@ impl Outputs {
         }
         if let Some((_, sum)) = moment {
             out(OVERTURNING, sum);
+        }
+        // From the top down: a storey moves all above it.
+        if let Some((points_kg, contents_kg)) = &self.masses {
+            let mut sum = [0.0; N];
+            for i in (1..self.points).rev() {
+                let [_, _, total] = point(i);
+                add(&mut sum, -points_kg[i], &total);
+                for (e, (floor, kg)) in contents_kg.iter().enumerate() {
+                    if *floor == i + 1 {
+                        let [_, total] = carried(e);
+                        add(&mut sum, -kg, &total);
+                    }
+                }
+                out(self.place(Output::StoreyShear(i)), sum);
+            }
         }
     }
 

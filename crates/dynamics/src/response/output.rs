@@ -35,6 +35,8 @@ pub(crate) enum Output {
     Drift(usize),
     /// Velocity of a point over the one before it in m/s; of the first that over the block.
     DriftVelocity(usize),
+    /// Shear between a point and the one before it in N; of the first the base shear.
+    StoreyShear(usize),
     /// Sliding velocity of contents in m/s.
     ContentsVelocity(usize),
     /// Total acceleration of contents less the slope's pull, in m/s².
@@ -59,6 +61,8 @@ impl Output {
             Self::Drift(0) => OF_BLOCK,
             Self::Drift(i) => OF_BLOCK + 2 * points + i - 1,
             Self::DriftVelocity(i) => OF_BLOCK + 2 * points + points.saturating_sub(1) + i,
+            Self::StoreyShear(0) => BASE_SHEAR,
+            Self::StoreyShear(i) => OF_BLOCK + 3 * points + points.saturating_sub(1) + i - 1,
             Self::ContentsVelocity(e) => of_contents + 2 * e,
             Self::ContentsAcceleration(e) => of_contents + 2 * e + 1,
         }
@@ -67,7 +71,7 @@ impl Output {
     /// How many a model has with so many points and contents.
     #[inline(always)]
     pub(crate) const fn count(points: usize, contents: usize) -> usize {
-        OF_BLOCK + 3 * points + points.saturating_sub(1) + 2 * contents
+        OF_BLOCK + 3 * points + 2 * points.saturating_sub(1) + 2 * contents
     }
 
     /// All of them in the order of their places.
@@ -87,6 +91,7 @@ impl Output {
             .chain((0..points).map(Self::Acceleration))
             .chain((1..points).map(Self::Drift))
             .chain((0..points).map(Self::DriftVelocity))
+            .chain((1..points).map(Self::StoreyShear))
             .chain((0..contents).flat_map(of_contents))
     }
 }
@@ -104,5 +109,6 @@ mod tests {
             assert_eq!(places, (0..count).collect::<Vec<usize>>());
         }
         assert_eq!(Output::Drift(0).place(3), Output::Displacement(0).place(3));
+        assert_eq!(Output::StoreyShear(0).place(3), Output::BaseShear.place(3));
     }
 }

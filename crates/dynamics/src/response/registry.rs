@@ -169,8 +169,9 @@ impl Demand {
         Self::new(key, words, DemandKind::Count, None, value)
     }
 
+    /// Of the stop, which in two directions is one all around.
     const fn of_stop(self) -> Self {
-        Self { of: DemandOf::Stop, ..self }
+        Self { of: DemandOf::Stop, in_directions: InDirections::Resultant, ..self }
     }
 
     const fn of_storey(self) -> Self {
@@ -237,7 +238,7 @@ const SURFACES: u8 = 44;
 const CONTENTS: u8 = 45;
 
 /// The demands in the order of the summary and of tables.
-pub static DEMANDS: [Demand; 49] = [
+pub static DEMANDS: [Demand; 51] = [
     Demand::number("peak_sliding_displacement_m", "peak sliding displacement", Length, |d, _| {
         Some(d.peak_sliding_displacement_m)
     })
@@ -329,6 +330,10 @@ pub static DEMANDS: [Demand; 49] = [
     })
     .of_storey()
     .row(STOREYS, "peak drift velocity"),
+    Demand::number("peak_shear_n", "peak shear", Force, |d, i| {
+        d.storeys.get(i).and_then(|storey| storey.peak_shear_n)
+    })
+    .of_storey(),
     Demand::number("peak_acceleration_m_per_s2", "peak acceleration", Acceleration, |d, i| {
         d.points.get(i).map(|point| point.peak_acceleration_m_per_s2)
     })
@@ -356,6 +361,10 @@ pub static DEMANDS: [Demand; 49] = [
     })
     .of_point()
     .row(STOREYS, "peak drift velocity"),
+    Demand::number("peak_shear_n", "peak shear", Force, |d, i| {
+        d.points.get(i).and_then(|point| point.peak_shear_n)
+    })
+    .of_point(),
     Demand::number("peak_base_shear_n", "peak base shear", Force, |d, _| Some(d.peak_base_shear_n))
         .row_with_storeys(30, "Peak base shear"),
     Demand::number("peak_friction_force_n", "peak friction force", Force, |d, _| {

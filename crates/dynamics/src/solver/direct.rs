@@ -93,7 +93,7 @@ fn stepped(walk: Walk<'_, Direct<'_>>) -> Stepped {
         }
     };
     let contents = phase.body.part_of.iter().map(of_part).collect();
-    let mut outcome = walk.outcome(phase.peaks.arms.is_some());
+    let mut outcome = walk.outcome(phase.peaks.inertia.arms.is_some());
     outcome.events = events_of_items(&phase.body, &outcome.events);
     let warnings = outcome.first_impact_s.map(|time_s| {
         Notice::new(

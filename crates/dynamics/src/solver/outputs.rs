@@ -58,16 +58,16 @@ pub(super) trait Quantities {
 }
 
 impl Output {
-    /// Its value in a motion, the overturning moment by these arms, accelerations less the slope's pull.
-    pub(super) fn of<M: Quantities>(self, motion: &M, arms: Option<&Arms>, slope: f64) -> M::Value {
+    /// Its value in a motion, by what has inertia in it, accelerations less the slope's pull.
+    pub(super) fn of<M: Quantities>(self, motion: &M, inertia: &Inertia, slope: f64) -> M::Value {
         match self {
             Self::Velocity => motion.velocity(),
             Self::Block => motion.block().less(slope),
             Self::SliderForce => motion.slider_n(),
             Self::FrictionForce => motion.friction_n(),
-            Self::BaseShear => motion.base_shear_n(),
+            Self::BaseShear | Self::StoreyShear(0) => motion.base_shear_n(),
             Self::Overturning => {
-                let Some(arms) = arms else { return motion.zero() };
+                let Some(arms) = &inertia.arms else { return motion.zero() };
                 let points = arms.points.iter().enumerate();
                 let contents = arms.contents.iter().enumerate();
                 let of_contents = contents.map(|(e, arm)| {
@@ -81,6 +81,18 @@ impl Output {
             Self::Acceleration(i) => motion.acceleration(i).less(slope),
             Self::Drift(i) => motion.drift(i),
             Self::DriftVelocity(i) => motion.drift_velocity(i),
+            // What is above the storey is moved by it alone.
+            Self::StoreyShear(i) => {
+                let Some(masses) = &inertia.masses else { return motion.zero() };
+                let points = masses.points_kg.iter().enumerate().skip(i);
+                let points = points.map(|(j, kg)| (-kg, motion.acceleration(j)));
+                let contents = masses.contents_kg.iter().enumerate();
+                let contents = contents.filter(|(_, (floor, _))| *floor > i).map(|(e, (_, kg))| {
+                    let [_, acceleration] = motion.contents(e);
+                    (-kg, acceleration)
+                });
+                Linear::sum((0.0, motion.zero()), points.chain(contents))
+            }
             Self::ContentsVelocity(e) => {
                 let [velocity, _] = motion.contents(e);
                 velocity
@@ -90,6 +102,33 @@ impl Output {
                 acceleration.less(slope)
             }
         }
+    }
+}
+
+/// What has inertia, as outputs are made of it.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Inertia {
+    /// For the overturning moment, where it is asked for.
+    pub(super) arms: Option<Arms>,
+    /// For the shears of the storeys, where the points have masses.
+    pub(super) masses: Option<Masses>,
+}
+
+/// Masses in kg: of points, and of contents on their floors, from 1, which may be fewer than the model's where some slide as
+/// one.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Masses {
+    pub(super) points_kg: Vec<f64>,
+    pub(super) contents_kg: Vec<(usize, f64)>,
+}
+
+impl Inertia {
+    pub(super) fn new(model: &Model, contents: &[Contents]) -> Self {
+        let contents_kg = || contents.iter().map(|c| (c.floor, c.mass_kg)).collect();
+        let masses = model
+            .point_masses_kg()
+            .map(|points_kg| Masses { points_kg, contents_kg: contents_kg() });
+        Self { arms: Arms::new(model, contents), masses }
     }
 }
 
@@ -285,11 +324,11 @@ impl Quantities for Rows<'_> {
 pub(super) fn rows(
     system: &System,
     slip: Option<&Restraint>,
-    arms: Option<&Arms>,
+    inertia: &Inertia,
     slope: f64,
 ) -> Vec<OutputRow> {
     let rows = Rows { system, slip };
-    Output::all(system.points(), 0).map(|output| output.of(&rows, arms, slope)).collect()
+    Output::all(system.points(), 0).map(|output| output.of(&rows, inertia, slope)).collect()
 }
 
 /// The outputs of a phase.

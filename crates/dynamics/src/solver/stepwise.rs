@@ -5,7 +5,7 @@
 
 use super::course::Sliding;
 use super::ground::{Normal, contact_loss_s, varying_normal};
-use super::outputs::{Arms, Quantities};
+use super::outputs::{Inertia, Quantities};
 use super::recorder::{self, Recorder, Stored};
 use super::slider::Stopping;
 use super::summary;
@@ -72,7 +72,7 @@ pub(super) fn solve(
         tolerance_m_per_s2,
     };
     let n = system.storeys;
-    let arms = Arms::new(model, &[]);
+    let inertia = Inertia::new(model, &[]);
     let mut recorder = Recorder::new(&system, &law, motion.len(), slope);
     let mut peaks = vec![0.0; Output::count(n, 0)];
     let mut step = program.start(model);
@@ -85,7 +85,7 @@ pub(super) fn solve(
     let mut note = |sample: usize, step: &Step, mode: Mode, row: bool| {
         let at = AtSample { program: &program, step, sample };
         for (peak, output) in peaks.iter_mut().zip(Output::all(n, 0)) {
-            *peak = greatest(*peak, f64::abs(output.of(&at, arms.as_ref(), slope)));
+            *peak = greatest(*peak, f64::abs(output.of(&at, &inertia, slope)));
         }
         let state = step.state();
         let stored = Stored {
@@ -145,7 +145,7 @@ pub(super) fn solve(
     let warnings = summary::warnings(model, &events, &contact_loss_s);
     let outcome = Outcome {
         events,
-        overturns: arms.is_some(),
+        overturns: inertia.arms.is_some(),
         sliding,
         stop: law.has_stop().then_some(stopping.demands),
         surfaces: Vec::new(),

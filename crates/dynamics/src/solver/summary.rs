@@ -25,7 +25,7 @@ pub(super) fn of_peaks(
     width_m: Option<f64>,
     peak: impl Fn(Output) -> f64,
 ) -> Demands {
-    let weight_n = model.weight_n();
+    let (weight_n, has_masses) = (model.weight_n(), model.point_masses_kg().is_some());
     let of_point = |i: usize| {
         let peak_drift_m = peak(Output::Drift(i));
         StoreyDemands {
@@ -34,6 +34,7 @@ pub(super) fn of_peaks(
             peak_drift_m,
             peak_drift_ratio: model.rise_m(i).map(|rise_m| peak_drift_m / rise_m),
             peak_drift_velocity_m_per_s: peak(Output::DriftVelocity(i)),
+            peak_shear_n: has_masses.then(|| peak(Output::StoreyShear(i))),
         }
     };
     let points = (0..model.points()).map(of_point).collect();

@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 
 use fearless_simd::prelude::*;
 
-use super::outputs::{self, Arms, Outputs};
+use super::outputs::{self, Inertia, Outputs};
 use super::{dense, plane};
 use crate::error::SolveError;
 use crate::linear::polynomial::DEGREE;
@@ -54,7 +54,7 @@ pub(super) struct LazyPhase {
     dt_s: Option<f64>,
     batch_s: Option<f64>,
     orders: usize,
-    arms: Option<Arc<Arms>>,
+    inertia: Arc<Inertia>,
     slope: f64,
     phase: OnceLock<PhaseTables>,
 }
@@ -173,7 +173,7 @@ impl Tables {
             free.restrained(stiffness_n_per_m, damper_n_s_per_m)
         };
         let free = Arc::new(free);
-        let arms = Arms::new(model, &[]).map(Arc::new);
+        let inertia = Arc::new(Inertia::new(model, &[]));
         let slope = model.slope_m_per_s2();
         let mut stick = LazyPhase {
             number: 0,
@@ -182,7 +182,7 @@ impl Tables {
             dt_s,
             batch_s: dt_s.filter(|_| is_tabled),
             orders: DEGREE,
-            arms,
+            inertia,
             slope,
             phase: OnceLock::new(),
         };
@@ -197,7 +197,7 @@ impl Tables {
                 restraints: Some(restraints),
                 // Pressed against a stop, samples go one by one.
                 batch_s: dt_s.filter(|_| !restraints.is_pressed),
-                arms: stick.arms.clone(),
+                inertia: stick.inertia.clone(),
                 phase: OnceLock::new(),
                 ..stick
             });
@@ -215,9 +215,9 @@ impl Tables {
         let fits = free.storeys <= 1 && !free.is_by_modes();
         let plain_s = dt_s.filter(|_| fits && is_tabled && law.two_branches(normal_n).is_some());
         let dense = plain_s.and_then(|dt_s| {
-            let arms = stick.arms.as_deref();
+            let arms = stick.inertia.arms.as_ref();
             let rows = [None, Some(&Restraint::default())]
-                .map(|slip| outputs::rows(&free, slip, arms, slope));
+                .map(|slip| outputs::rows(&free, slip, &stick.inertia, slope));
             let shape = dense::Shape {
                 floor: if free.storeys == 1 { free.floor(0)[0] } else { 0.0 },
                 arms: arms.map_or([0.0; 2], |arms| {
@@ -228,7 +228,7 @@ impl Tables {
             };
             dense::Tables::new(simd, &free, shape, rows.each_ref().map(Vec::as_slice), dt_s)
         });
-        let overturns = stick.arms.is_some();
+        let overturns = stick.inertia.arms.is_some();
         let (orders, in_plane) = (stick.orders, OnceLock::new());
         let tables = Self { orders, stick, slip, overturns, slope, start, dense, in_plane };
         if is_tabled && tables.dense.is_none() {
@@ -299,9 +299,9 @@ impl PhaseTables {
     #[inline(always)]
     fn new<S: Simd>(simd: S, of: &LazyPhase) -> Self {
         let LazyPhase { ref system, restraints, dt_s, batch_s, orders, slope, .. } = *of;
-        let arms = of.arms.as_deref();
+        let inertia = &*of.inertia;
         let of_friction = restraints.map(|restraints| restraints.of_friction);
-        let rows = outputs::rows(system, of_friction.as_ref(), arms, slope);
+        let rows = outputs::rows(system, of_friction.as_ref(), inertia, slope);
         let slip = of_friction.is_some();
         let system = system.clone();
         let rate = if slip { system.slip_rate_rad_per_s } else { system.stick_rate_rad_per_s };

@@ -2,6 +2,7 @@
 
 use core::f64::consts::TAU;
 
+use slipstick::model::Model;
 use slipstick::response::{Demands, History, HistoryAlongY};
 
 use super::histories::{SHADING, history_panel, of_points, over_time};
@@ -34,15 +35,17 @@ fn sliding_displacement(scene: &Scene, s: Vector) -> Drawn {
     let report = scene.report;
     let demands = &report.summary.demands;
     let peak_m = demands.peak_sliding_displacement_m;
-    let gap_m = report.model.slider().gap_m().filter(|gap| *gap <= 4.0 * peak_m);
-    let unit = report.display.unit(Quantity::Length, gap_m.unwrap_or(peak_m).max(peak_m));
+    let end = end_of_travel(report.model, peak_m);
+    let unit = report
+        .display
+        .unit(Quantity::Length, end.map_or(peak_m, |(_, radius_m)| radius_m.max(peak_m)));
     let norm = Trace::with_peak(scene.over_time(unit, |knot| norm(s, knot)), unit.of(peak_m));
-    let largest = gap_m.map_or(0.0, |gap| unit.of(gap));
+    let largest = end.map_or(0.0, |(_, radius_m)| unit.of(radius_m));
     let y = Axis::from_zero(unit.label("Sliding displacement |s|"), norm.values().chain([largest]));
     let mut resultant = Panel { y, ..history_panel(scene, "", norm, unit) };
-    resultant.limits.extend(gap_m.map(|gap| {
-        let label = format!("gap {} {}", compact(unit.of(gap)), unit.symbol);
-        Limit { value: unit.of(gap), label, style: Style::LIMIT }
+    resultant.limits.extend(end.map(|(name, radius_m)| {
+        let label = format!("{name} {} {}", compact(unit.of(radius_m)), unit.symbol);
+        Limit { value: unit.of(radius_m), label, style: Style::LIMIT }
     }));
     let mut panels = vec![resultant];
     panels.extend(by_axis(scene, "Sliding displacement s", unit, s, |axis| {
@@ -59,23 +62,30 @@ fn sliding_displacement(scene: &Scene, s: Vector) -> Drawn {
     over_time(scene, ("sliding-displacement", "Sliding displacement over time"), panels, caption)
 }
 
+/// The gap, or the stop around the block, by its name and its radius in m, where it is near what the block slides.
+fn end_of_travel(model: &Model, peak_m: f64) -> Option<(&'static str, f64)> {
+    let slider = model.slider();
+    let [stop_m, _] = slider.stop_m();
+    let gap = slider.gap_m().map(|gap_m| ("gap", gap_m));
+    gap.or(stop_m.map(|stop_m| ("stop", stop_m))).filter(|(_, radius_m)| *radius_m <= 4.0 * peak_m)
+}
+
 /// The orbit of `s` inside its gap, and that of the friction force inside `μ_s N`.
 fn orbits(scene: &Scene, s: Vector, friction: Vector) -> Drawn {
     let (report, model) = (scene.report, scene.report.model);
     let demands = &report.summary.demands;
-    let gap_m =
-        model.slider().gap_m().filter(|gap| *gap <= 4.0 * demands.peak_sliding_displacement_m);
+    let end = end_of_travel(model, demands.peak_sliding_displacement_m);
     let [static_n, kinetic_n] =
         [model.static_friction(), model.kinetic_friction()].map(|[mu, _]| mu * model.normal_n());
     let length = report.display.unit(Quantity::Length, demands.peak_sliding_displacement_m);
     let force = report.display.unit(Quantity::Force, demands.peak_friction_force_n);
-    let gap = gap_m.map(|gap| ("gap", Style::LIMIT, length.of(gap)));
+    let circle = end.map(|(name, radius_m)| (name, Style::LIMIT, length.of(radius_m)));
     let mut bounds = vec![("static friction μₛ N", Style::DASHED, force.of(static_n))];
     if kinetic_n != static_n {
         bounds.push(("kinetic friction μₖ N", Style::DOTTED, force.of(kinetic_n)));
     }
     let panels = vec![
-        orbit("Sliding displacement s", length, s, &Vec::from_iter(gap)),
+        orbit("Sliding displacement s", length, s, &Vec::from_iter(circle)),
         orbit("Friction force T", force, friction, &bounds),
     ];
     let varies = if report.motion.vertical_m_per_s2().is_some() {
@@ -87,7 +97,7 @@ fn orbits(scene: &Scene, s: Vector, friction: Vector) -> Drawn {
         "Left: the path of the block over the ground, seen from above{}. Right: the force of the ground \
          on the block by friction, which stays inside the circle of static friction while the block \
          sticks and lies on that of kinetic friction, against the velocity, while it slides.{varies}",
-        if gap_m.is_some() { ", inside its gap" } else { "" }
+        end.map_or(String::new(), |(name, _)| format!(", with its {name}"))
     );
     laid(
         Layout::Square,

@@ -9,11 +9,12 @@ use crate::table::Table;
 
 /// The demands of floors and points that profiles are of, in their order: the key of one of the block beside them, and
 /// that of a storey.
-const PROFILES: [(Option<&str>, &str); 4] = [
+const PROFILES: [(Option<&str>, &str); 5] = [
     (Some("block.peak_acceleration_m_per_s2"), "peak_acceleration_m_per_s2"),
     (None, "peak_displacement_m"),
     (None, "peak_drift_m"),
     (None, "peak_drift_ratio"),
+    (None, "peak_shear_n"),
 ];
 
 /// A demand at every level that has it, from below: the block, the storeys or the points.

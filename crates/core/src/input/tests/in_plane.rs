@@ -153,7 +153,20 @@ fn keys_of_one_direction_or_two() {
     assert!(three.ends_with("expected two values, along x and along y, found 1"), "{three}");
     for (text, key) in [
         (format!("{BLOCK}asymmetry = 0.1\n{PAIR}"), "slider.asymmetry"),
-        (format!("{BLOCK}stop = {{ gap = \"0.1 m\", restitution = 0 }}\n{PAIR}"), "slider.stop"),
+        (
+            format!("{BLOCK}stop = {{ gap = \"0.1 m\", restitution = 0 }}\n{PAIR}"),
+            "slider.stop.restitution",
+        ),
+        (
+            format!("{BLOCK}stop = {{ gap = \"0 m\", stiffness = \"1 MN/m\" }}\n{PAIR}"),
+            "slider.stop.gap",
+        ),
+        (
+            format!(
+                "{BLOCK}stop = {{ gap = {{ positive = \"0.1 m\" }}, stiffness = \"1 MN/m\" }}\n{PAIR}"
+            ),
+            "slider.stop.gap",
+        ),
         (format!("{BLOCK}{PAIR}[analysis]\nmethod = \"stepwise\"\n"), "analysis.method"),
         (
             format!(

@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use super::super::course::WalkState;
 use super::super::ground::Ground;
-use super::super::outputs::{Arms, Linear, Quantities};
+use super::super::outputs::{Inertia, Linear, Quantities};
 use super::super::phase::LinePhase;
 use super::Direct;
 use super::body::{Body, Expansion, Loads, combined};
@@ -20,8 +20,8 @@ pub(super) struct Peaks {
     outputs: Vec<Output>,
     /// One of each.
     pub(super) values: Vec<f64>,
-    /// What the overturning moment is made of, where it is asked for.
-    pub(super) arms: Option<Arms>,
+    /// What has inertia.
+    pub(super) inertia: Inertia,
     /// `g sin θ`, which accelerations are reported without.
     pub(super) slope_m_per_s2: f64,
 }
@@ -33,7 +33,7 @@ impl Peaks {
         Self {
             values: vec![0.0; outputs.len()],
             outputs,
-            arms: Arms::new(model, contents),
+            inertia: Inertia::new(model, contents),
             slope_m_per_s2: model.slope_m_per_s2(),
         }
     }
@@ -216,7 +216,7 @@ impl<'a> Direct<'a> {
         let oscillators = if self.body.points.is_some() { &instant.floors[..] } else { &[] };
         let outputs = peaks.outputs.iter();
         outputs
-            .map(move |output| output.of(&motion, peaks.arms.as_ref(), slope).start())
+            .map(move |output| output.of(&motion, &peaks.inertia, slope).start())
             .chain(oscillators.iter().map(move |p| p[0] - slope))
     }
 
@@ -225,11 +225,11 @@ impl<'a> Direct<'a> {
         for j in 0..self.peaks.outputs.len() {
             match self.peaks.outputs[j] {
                 Output::FrictionForce => self.look_at_friction(course, part),
-                Output::Overturning if self.peaks.arms.is_none() => {}
+                Output::Overturning if self.peaks.inertia.arms.is_none() => {}
                 output => {
-                    let Peaks { values, arms, slope_m_per_s2, .. } = &mut self.peaks;
+                    let Peaks { values, inertia, slope_m_per_s2, .. } = &mut self.peaks;
                     let motion = InSeries { body: &self.body, series: &self.series };
-                    let output = output.of(&motion, arms.as_ref(), *slope_m_per_s2);
+                    let output = output.of(&motion, inertia, *slope_m_per_s2);
                     if !(output.size_bound() <= values[j]) {
                         raise(&mut values[j], &output.series(), part);
                     }

@@ -386,6 +386,14 @@ impl Peaks {
                 let ends = ends.map(|end| at(&end.drifts, i));
                 self.of(Output::Drift(i)).is_above(ends, at(&bends.drifts, i))
             };
+            let shears = || {
+                let mut of = ends.map(|end| at(&end.shears, i));
+                for (shear, table) in of.iter_mut().zip(tables) {
+                    let part = system.shears_with_block.get(i);
+                    *shear = apart(*shear, part.map_or([0.0; 2], |part| times(part, table)));
+                }
+                self.of(Output::StoreyShear(i)).is_above(of, at(&bends.shears, i))
+            };
             let displacements = ends.map(|end| at(&end.displacements, i));
             let velocities = ends.map(|end| at(&end.drift_velocities, i));
             self.of(Output::Displacement(i)).is_above(displacements, at(&bends.displacements, i))
@@ -393,7 +401,7 @@ impl Peaks {
                     .of(Output::DriftVelocity(i))
                     .is_above(velocities, at(&bends.drift_velocities, i))
                 && self.of(Output::Acceleration(i)).is_above(accelerations, at(&bends.of_g, i))
-                && (i == 0 || drifts())
+                && (i == 0 || drifts() && (system.shears.is_none() || shears()))
         })
     }
 
@@ -447,19 +455,25 @@ impl Peaks {
             let of = (of, at(&bends.drift_velocities, i));
             let rows = (&system.drifts, i, &*series.rate);
             self.look_at_rows(Output::DriftVelocity(i), of, rows, (series, to));
+            if let Some(shears) = system.shears.as_ref().filter(|_| i > 0) {
+                let rows = (shears, i, &*series.g);
+                let output = Output::StoreyShear(i);
+                if let (Some(with_block), Some(block)) = (system.shears_with_block.get(i), block) {
+                    // Σ m (Φ g − W b)
+                    let less = with_block.map(|row| row.map(|x| -x));
+                    let vector = block.carried(&less, (&series.combined(rows), [0.0; 2]), -1.0);
+                    self.look_at_vector(output, &vector, part);
+                } else {
+                    let of = (ends.map(|end| at(&end.shears, i)), at(&bends.shears, i));
+                    self.look_at_rows(output, of, rows, (series, to));
+                }
+            }
             let rows = (&system.floors, i, &*series.g);
             if let (Some(with_block), Some(block)) = (system.with_block.get(i), block) {
                 // −Φ g + W b
-                let of_modes = series.combined(rows);
-                let steady = [0, 1].map(|axis| -> Polynomial {
-                    let [x, y] = &block.steady;
-                    let row = with_block[axis];
-                    let total =
-                        core::array::from_fn(|k| inner(row, [x[k], y[k]]) - of_modes[axis][k]);
-                    less(total, system.slope[axis])
-                });
-                let of_friction = with_block.map(|row| row_times(row, &block.of_friction));
-                self.look_at_vector(Output::Acceleration(i), &Vector { steady, of_friction }, part);
+                let of_modes = (&series.combined(rows), system.slope);
+                let vector = block.carried(with_block, of_modes, 1.0);
+                self.look_at_vector(Output::Acceleration(i), &vector, part);
                 continue;
             }
             // Φ g, and the slope's pull: what is told is −Φ g without it.
@@ -710,6 +724,11 @@ impl Peaks {
             let of = |u: [f64; 2]| apart(apart(times(part, block(u)), of_modes), system.slope);
             raise(Output::Acceleration(i), &of);
         }
+        for (i, part) in system.shears_with_block.iter().enumerate().skip(1) {
+            let Some(shears) = &system.shears else { break };
+            let of_modes = [0, 1].map(|axis| shears[axis].sum(i, g));
+            raise(Output::StoreyShear(i), &|u| apart(of_modes, times(part, block(u))));
+        }
         let moments = system
             .overturning
             .each_ref()
@@ -774,6 +793,23 @@ fn row_times(row: [f64; 2], matrix: &Matrix) -> [f64; 2] {
 }
 
 impl Vector {
+    /// A matrix times it, less a factor of a series and a constant.
+    fn carried(
+        &self,
+        matrix: &Matrix,
+        (of_modes, constant): (&[Polynomial; 2], [f64; 2]),
+        factor: f64,
+    ) -> Self {
+        let steady = [0, 1].map(|axis| -> Polynomial {
+            let ([x, y], row) = (&self.steady, matrix[axis]);
+            let total =
+                core::array::from_fn(|k| inner(row, [x[k], y[k]]) - factor * of_modes[axis][k]);
+            less(total, constant[axis])
+        });
+        let of_friction = matrix.map(|row| row_times(row, &self.of_friction));
+        Self { steady, of_friction }
+    }
+
     /// Looks for its peaks, in slip by the friction along its velocity; `by_axis` those of its components alone.
     fn look(&self, peak: &mut Peak, part: &SeriesPart<'_>, by_axis: bool) {
         let &SeriesPart { system, series, to, .. } = part;

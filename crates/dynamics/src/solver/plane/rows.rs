@@ -151,12 +151,20 @@ pub(super) struct AtPoints {
     pub(super) drifts: [Vec<f64>; 2],
     pub(super) drift_velocities: [Vec<f64>; 2],
     pub(super) of_g: [Vec<f64>; 2],
+    /// What `g` adds to the shears before them.
+    pub(super) shears: [Vec<f64>; 2],
 }
 
 impl AtPoints {
     fn new(points: usize) -> Self {
         let lists = || [vec![0.0; points], vec![0.0; points]];
-        Self { displacements: lists(), drifts: lists(), drift_velocities: lists(), of_g: lists() }
+        Self {
+            displacements: lists(),
+            drifts: lists(),
+            drift_velocities: lists(),
+            of_g: lists(),
+            shears: lists(),
+        }
     }
 
     /// Their values, from `η`, `η̇` and `g` of the modes.
@@ -184,6 +192,9 @@ impl AtPoints {
             of(&system.drifts[axis], of_eta, &mut self.drifts[axis]);
             of(&system.drifts[axis], of_rate, &mut self.drift_velocities[axis]);
             of(&system.floors[axis], of_g, &mut self.of_g[axis]);
+            if let Some(shears) = &system.shears {
+                of(&shears[axis], of_g, &mut self.shears[axis]);
+            }
         }
     }
 }

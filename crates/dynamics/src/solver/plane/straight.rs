@@ -169,6 +169,7 @@ impl OnLine<'_> {
             peak_drift_m: size(storey.peak_drift_m),
             peak_drift_ratio: storey.peak_drift_ratio.map(size),
             peak_drift_velocity_m_per_s: size(storey.peak_drift_velocity_m_per_s),
+            peak_shear_n: storey.peak_shear_n.map(size),
         };
         Demands {
             peak_sliding_displacement_m: size(d.peak_sliding_displacement_m),

@@ -58,6 +58,10 @@ pub(in crate::solver) struct System {
     /// `Φ` along x and y, and what of it the drift from the point before is.
     pub(super) floors: [Rows; 2],
     pub(super) drifts: [Rows; 2],
+    /// What `g` adds to the shear between each point and the one before it along x and y, where the points have masses, and
+    /// what of the block's acceleration takes from it, where something does.
+    pub(super) shears: Option<[Rows; 2]>,
+    pub(super) shears_with_block: Vec<Matrix>,
     /// What of each point's acceleration is the block's; none where nothing is.
     pub(super) with_block: Vec<Matrix>,
     /// Of oscillators along their directions, `1/|L|`; none of a frame.
@@ -129,6 +133,13 @@ impl System {
             participation: [0, 1].map(|k| place(k, &axes[k].participation)),
             floors: rows(&|k, i| place(k, axes[k].floor(i))),
             drifts: rows(&|k, i| place(k, axes[k].drift(i))),
+            shears: {
+                let masses_kg = &model.frame().masses_kg;
+                let floors =
+                    |k: usize| (0..n).map(|i| place(k, axes[k].floor(i))).collect::<Vec<_>>();
+                Some([0, 1].map(|k| Rows::new(&above(&floors(k), masses_kg))))
+            },
+            shears_with_block: Vec::new(),
             with_block: Vec::new(),
             oscillators: Vec::new(),
             overturning: [0, 1].map(|k| {
@@ -191,6 +202,7 @@ impl System {
         let with_block = if all_there { Vec::new() } else { with_block };
         let arms = structure.shares().map(|_| model.lever_arms().unwrap_or_default());
         let widths = [model.block().width_m, model.along_y().width_m];
+        let masses_kg = model.point_masses_kg();
         let moment = |k: usize| {
             widths[k]?;
             let (mut arm, mut along) = (vec![0.0; modes.len()], [0.0; 2]);
@@ -235,6 +247,12 @@ impl System {
             damping,
             coupled: false,
             participation,
+            shears: masses_kg
+                .as_ref()
+                .map(|kg| floors.each_ref().map(|rows| Rows::new(&above(rows, kg)))),
+            shears_with_block: masses_kg
+                .as_ref()
+                .map_or_else(Vec::new, |kg| matrices_above(&with_block, kg)),
             floors: floors.map(|rows| Rows::new(&rows)),
             drifts,
             with_block,
@@ -375,6 +393,26 @@ impl System {
         };
         (0..self.modes()).map(of_mode).collect()
     }
+}
+
+/// Of rows a point each, the sums of masses times those of a point and all after it.
+fn above(rows: &[Vec<f64>], masses_kg: &[f64]) -> Vec<Vec<f64>> {
+    let mut sums: Vec<Vec<f64>> = Vec::with_capacity(rows.len());
+    for (row, kg) in rows.iter().zip(masses_kg).rev() {
+        let over = sums.last();
+        let sum = |(j, x): (usize, &f64)| kg * x + over.map_or(0.0, |over| over[j]);
+        sums.push(row.iter().enumerate().map(sum).collect());
+    }
+    sums.reverse();
+    sums
+}
+
+/// Of matrices a point each, likewise.
+fn matrices_above(matrices: &[Matrix], masses_kg: &[f64]) -> Vec<Matrix> {
+    let rows: Vec<Vec<f64>> =
+        matrices.iter().map(|[[a, b], [c, d]]| vec![*a, *b, *c, *d]).collect();
+    let matrix = |row: &Vec<f64>| [[row[0], row[1]], [row[2], row[3]]];
+    above(&rows, masses_kg).iter().map(matrix).collect()
 }
 
 /// `D` of the modes of both axes.

@@ -74,7 +74,7 @@ impl HistoriesReport<'_> {
             };
             let caption = format!(
                 "Demands over the height: thin every record, grey 16 to 84 % of them, thick their {}. Displacements are \
-                 relative to the block, drifts to the level below.{friction}",
+                 relative to the block, drifts to the level below; shears are of the storey below the level.{friction}",
                 model.statistic()
             );
             let title = self.of_model("Demands over the height", model);
@@ -130,8 +130,9 @@ impl Profiles<'_> {
         self.unit.label(&title)
     }
 
-    fn is_of_drifts(&self) -> bool {
-        self.profile.key.starts_with("peak_drift")
+    /// Whether it is of what lies between a level and the one below: it is constant over the storey.
+    fn is_of_storeys(&self) -> bool {
+        self.profile.key.starts_with("peak_drift") || self.profile.key == "peak_shear_n"
     }
 
     /// What governs at a level with a bound.
@@ -201,14 +202,15 @@ impl Profiles<'_> {
         }
     }
 
-    /// The line through values of the levels: drifts are constant over their storey, displacements begin at the block.
+    /// The line through values of the levels: drifts and shears are constant over their storey,
+    /// displacements begin at the block.
     fn points(&self, value: impl Fn(usize) -> f64) -> Vec<[f64; 2]> {
         let each = self.profile.levels.iter().enumerate();
         let own = |(place, (level, _)): (usize, &(usize, DemandColumn))| {
             (*level, self.unit.of(value(place)))
         };
         let values: Vec<(usize, f64)> = each.map(own).collect();
-        if self.is_of_drifts() {
+        if self.is_of_storeys() {
             let storey = |(level, value): (usize, f64)| {
                 [[value, self.height(level - 1)], [value, self.height(level)]]
             };
