@@ -247,7 +247,14 @@ impl Model {
         self.block.mass_kg - missing
     }
 
-    /// Mass of each point in kg: of the floors of a frame, of a structure by its modes where all of its points have one.
+    /// Whether each point has a mass: the floors of a frame have, those of a structure by its modes where they are given one.
+    #[must_use]
+    pub fn has_point_masses(&self) -> bool {
+        let of_point = |structure: &Structure| structure.points.iter().all(|p| p.mass_kg.is_some());
+        self.structure.as_ref().is_none_or(of_point)
+    }
+
+    /// Mass of each point in kg, where each has one.
     #[must_use]
     pub fn point_masses_kg(&self) -> Option<Vec<f64>> {
         match &self.structure {

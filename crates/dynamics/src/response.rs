@@ -87,6 +87,20 @@ pub enum EventKind {
 }
 
 impl EventKind {
+    /// All kinds.
+    pub const ALL: [Self; 10] = [
+        Self::Slip,
+        Self::Stick,
+        Self::Reversal,
+        Self::Contact,
+        Self::Separation,
+        Self::Press,
+        Self::Leave,
+        Self::Impact,
+        Self::Rest,
+        Self::Surface,
+    ];
+
     /// Its name in files and tables.
     #[must_use]
     pub fn name(self) -> &'static str {

@@ -177,14 +177,29 @@ impl Sample {
     }
 }
 
-/// Their events are no numbers, and their runs few.
+/// How many demands there are, these, then three numbers an event: the place of its kind, interface and direction.
 impl InNumbers for Sample {
     fn numbers(&self) -> Option<Vec<f64>> {
-        None
+        let event = |(kind, interface, sign): &(EventKind, usize, i8)| {
+            let place = EventKind::ALL.iter().position(|of| of == kind)?;
+            Some([place as f64, *interface as f64, f64::from(*sign)])
+        };
+        let events = self.events.iter().map(event).collect::<Option<Vec<_>>>()?;
+        let mut numbers = vec![self.demands.len() as f64];
+        numbers.extend(&self.demands);
+        numbers.extend(events.as_flattened());
+        Some(numbers)
     }
 
-    fn of(_: Vec<f64>) -> Option<Self> {
-        None
+    fn of(numbers: Vec<f64>) -> Option<Self> {
+        let (count, rest) = numbers.split_first()?;
+        let (demands, events) = rest.split_at_checked(*count as usize)?;
+        let (events, []) = events.as_chunks::<3>() else { return None };
+        let event = |[place, interface, sign]: &[f64; 3]| {
+            Some((*EventKind::ALL.get(*place as usize)?, *interface as usize, *sign as i8))
+        };
+        let events = events.iter().map(event).collect::<Option<Vec<_>>>()?;
+        Some(Self { demands: demands.to_vec(), events })
     }
 }
 
@@ -583,6 +598,24 @@ fn table(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_run_that_is_kept_is_the_same() {
+        let sample = Sample {
+            demands: vec![0.25, f64::NAN, -3.0],
+            events: vec![
+                (EventKind::Slip, 0, 1),
+                (EventKind::Surface, 2, -1),
+                (EventKind::Stick, 0, 0),
+            ],
+        };
+        let (numbers, of) = (sample.numbers().unwrap(), <Sample as InNumbers>::of);
+        let again = of(numbers.clone()).unwrap();
+        assert_eq!(format!("{again:?}"), format!("{sample:?}"));
+        assert!(of(numbers[..numbers.len() - 1].to_vec()).is_none());
+        assert!(of(vec![4.0, 1.0]).is_none());
+    }
+
     use crate::input::loaded::Loaded;
 
     const G: f64 = 9.80665;

@@ -262,7 +262,7 @@ fn of_peaks(
     own: &Recomputed<'_>,
     rounding: &Rounding,
 ) {
-    let (weight_n, n) = (model.weight_n(), model.points());
+    let weight_n = model.weight_n();
     let (force_n, near_m) = (rounding.force_n, rounding.displacement_m);
     let over = |output: Output, divisor: f64| own.peak(output).map(|peak| peak / divisor);
     let near = rounding.velocity_m_per_s;
@@ -271,15 +271,6 @@ fn of_peaks(
     let near = force_n / model.block().mass_kg;
     c.of("peak_block_acceleration_m_per_s2");
     c.within(d.peak_block_acceleration_m_per_s2, own.peak(Output::Block), near);
-    // What rounding of forces makes of an acceleration: of a point through the oscillators of its modes.
-    let of_mode = |i: usize| {
-        let modes = model.structure().into_iter().flat_map(|structure| &structure.modes);
-        modes.map(move |mode| (mode.points[i] / mode.effective_mass_kg).abs()).sum::<f64>()
-    };
-    let mass_kg = |i: usize| match model.structure() {
-        Some(_) => 1.0 / (of_mode(i) + 1.0 / model.block().mass_kg),
-        None => model.frame().masses_kg[i],
-    };
     for (name, printed, coefficient, output) in [
         ("peak_base_shear_n", d.peak_base_shear_n, d.base_shear_coefficient, Output::BaseShear),
         (
@@ -299,9 +290,44 @@ fn of_peaks(
         c.within(printed, own.peak(output), force_n);
         c.within(coefficient, over(output, weight_n), force_n / weight_n);
     }
+    of_points(c, model, d, own, rounding);
+    let ratio = own.gap_m.map(|gap_m| [own.scale_m / gap_m; 3]);
+    c.of("gap_ratio");
+    c.optional(d.gap_ratio, ratio, near_m / own.gap_m.unwrap_or(1.0));
+    let width_m = own.width_m.filter(|_| own.outputs.has_moment());
+    let moment = width_m.map(|width_m| 0.5 * width_m * weight_n);
+    let (ratio, per_n_m) = match (own.corner, moment) {
+        (Some(Corner { ratio: [least, most], per_n_m }), _) => (Some([least, most, most]), per_n_m),
+        (None, Some(moment)) => (Some(over(Output::Overturning, moment)), 1.0 / moment),
+        (None, None) => (None, 1.0),
+    };
+    let near = own.outputs.height_m(model) * force_n;
+    c.of("overturning_ratio");
+    c.optional(d.overturning_ratio, ratio, near * per_n_m);
+}
+
+/// Peaks of storeys, or of points.
+fn of_points(
+    c: &mut Comparison,
+    model: &Model,
+    d: &Demands,
+    own: &Recomputed<'_>,
+    rounding: &Rounding,
+) {
+    let n = model.points();
+    let (force_n, near_m) = (rounding.force_n, rounding.displacement_m);
+    // What rounding of forces makes of an acceleration: of a point through the oscillators of its modes.
+    let of_mode = |i: usize| {
+        let modes = model.structure().into_iter().flat_map(|structure| &structure.modes);
+        modes.map(move |mode| (mode.points[i] / mode.effective_mass_kg).abs()).sum::<f64>()
+    };
+    let mass_kg = |i: usize| match model.structure() {
+        Some(_) => 1.0 / (of_mode(i) + 1.0 / model.block().mass_kg),
+        None => model.frame().masses_kg[i],
+    };
     let points = if model.structure().is_some() { &d.points } else { &d.storeys };
     let part = if model.structure().is_some() { "point" } else { "storey" };
-    let has_masses = model.point_masses_kg().is_some();
+    let has_masses = model.has_point_masses();
     for (i, storey) in points.iter().enumerate().take(n) {
         c.of_part(part, i, "peak_displacement_m");
         c.within(storey.peak_displacement_m, own.peak(Output::Displacement(i)), near_m);
@@ -319,25 +345,12 @@ fn of_peaks(
     }
     for (i, storey) in points.iter().enumerate().take(n) {
         let height_m = model.rise_m(i);
-        let ratio = height_m.map(|height_m| over(Output::Drift(i), height_m));
+        let ratio = height_m.map(|height_m| own.peak(Output::Drift(i)).map(|peak| peak / height_m));
         c.of_part(part, i, "peak_drift_ratio");
         c.optional(storey.peak_drift_ratio, ratio, near_m / height_m.unwrap_or(1.0));
     }
     c.of("storeys");
     c.same(d.storeys.len() + d.points.len() == n && points.len() == n);
-    let ratio = own.gap_m.map(|gap_m| [own.scale_m / gap_m; 3]);
-    c.of("gap_ratio");
-    c.optional(d.gap_ratio, ratio, near_m / own.gap_m.unwrap_or(1.0));
-    let width_m = own.width_m.filter(|_| own.outputs.has_moment());
-    let moment = width_m.map(|width_m| 0.5 * width_m * weight_n);
-    let (ratio, per_n_m) = match (own.corner, moment) {
-        (Some(Corner { ratio: [least, most], per_n_m }), _) => (Some([least, most, most]), per_n_m),
-        (None, Some(moment)) => (Some(over(Output::Overturning, moment)), 1.0 / moment),
-        (None, None) => (None, 1.0),
-    };
-    let near = own.outputs.height_m(model) * force_n;
-    c.of("overturning_ratio");
-    c.optional(d.overturning_ratio, ratio, near * per_n_m);
 }
 
 fn of_contents(
@@ -460,16 +473,11 @@ fn of_events(
     peak_m: f64,
     rounding: &Rounding,
 ) {
-    use EventKind::{
-        Contact, Impact, Leave, Press, Rest, Reversal, Separation, Slip, Stick, Surface,
-    };
     c.of("events");
     let all = &own.events.list;
     let interfaces = own.totals.interfaces.len();
     for interface in 0..interfaces {
-        for kind in
-            [Slip, Stick, Reversal, Contact, Separation, Press, Leave, Impact, Rest, Surface]
-        {
+        for kind in EventKind::ALL {
             let fits = |e: &&Event| e.kind == kind && e.interface == interface;
             let own: Vec<&Event> =
                 all.iter().map(|judged: &JudgedEvent| &judged.event).filter(fits).collect();
@@ -488,9 +496,9 @@ fn of_events(
                     .map(|d| [d.slip_count, d.stick_count, d.reversal_count]),
             };
             let counted = match kind {
-                Slip => counts.map(|counts| counts[0]),
-                Stick => counts.map(|counts| counts[1]),
-                Reversal => counts.map(|counts| counts[2]),
+                EventKind::Slip => counts.map(|counts| counts[0]),
+                EventKind::Stick => counts.map(|counts| counts[1]),
+                EventKind::Reversal => counts.map(|counts| counts[2]),
                 _ => Some(count),
             };
             c.same(counted == Some(count));

@@ -288,14 +288,8 @@ fn solve_in_plane(
     plane::solve((model, system), (ground, along_y), instructions, how)
 }
 
-fn solve_along_x(
-    instructions: InstructionSet,
-    model: &Model,
-    tables: &Tables,
-    (motion, sampling): (&GroundMotion, &Sampling),
-    (with_history, go_on): (bool, Cancel<'_>),
-    workspace: &mut Workspace,
-) -> Result<Response, SolveError> {
+/// Refuses what is not solved along x, and what would take too long or too much room.
+fn refuse(model: &Model, tables: &Tables, motion: &GroundMotion) -> Result<(), SolveError> {
     if model.structure().is_some_and(|structure| structure.modes.is_empty()) {
         let what = "a structure whose modes all move along y";
         return Err(SolveError::NotTaken { method: "one horizontal direction", what });
@@ -315,7 +309,18 @@ fn solve_along_x(
             return Err(SolveError::TooMuchWork { work, limit, advice });
         }
     }
-    recorder::fits(model, motion.len())?;
+    recorder::fits(model, motion.len())
+}
+
+fn solve_along_x(
+    instructions: InstructionSet,
+    model: &Model,
+    tables: &Tables,
+    (motion, sampling): (&GroundMotion, &Sampling),
+    (with_history, go_on): (bool, Cancel<'_>),
+    workspace: &mut Workspace,
+) -> Result<Response, SolveError> {
+    refuse(model, tables, motion)?;
     let slope = tables.slope;
     let [mut sloped, mut varying] =
         [&mut workspace.acceleration, &mut workspace.normal_n].map(take);

@@ -56,25 +56,9 @@ pub(super) fn solve(
     }
     recorder::fits(model, motion.len())?;
     let system = system_of(model);
-    let slope = model.slope_m_per_s2();
-    let (mass_kg, gravity) = (model.total_mass_kg(), model.normal_gravity_m_per_s2());
-    let table = motion.horizontal_m_per_s2();
-    let normal_n = |sample: usize| {
-        let vertical = motion.vertical_m_per_s2().map_or(0.0, |a| a[sample]);
-        greatest(0.0, mass_kg * (gravity + vertical))
-    };
-    let program = Program {
-        system: &system,
-        law: &law,
-        times_s: motion.times_s(),
-        acceleration: table.iter().map(|a| a + slope).collect(),
-        normal_n: (0..motion.len()).map(normal_n).collect(),
-        tolerance_m_per_s2,
-    };
+    let program = Program::new(model, motion, (&system, &law), tolerance_m_per_s2);
     let n = system.storeys;
-    let inertia = Inertia::new(model, &[]);
-    let mut recorder = Recorder::new(&system, &law, motion.len(), slope);
-    let mut peaks = vec![0.0; Output::count(n, 0)];
+    let mut told = Told::new(&program, model, motion);
     let mut step = program.start(model);
     let mut pulse = Pulse::new(go_on);
     let mut sliding = Sliding::new(step.s);
@@ -82,24 +66,6 @@ pub(super) fn solve(
     let mut contact = Contact::Free;
     let mut events = Vec::new();
     let (mut total, mut most) = (0_u64, 0);
-    let mut note = |sample: usize, step: &Step, mode: Mode, row: bool| {
-        let at = AtSample { program: &program, step, sample };
-        for (peak, output) in peaks.iter_mut().zip(Output::all(n, 0)) {
-            *peak = greatest(*peak, f64::abs(output.of(&at, &inertia, slope)));
-        }
-        let state = step.state();
-        let stored = Stored {
-            time_s: program.times_s[sample],
-            mode,
-            contact: program.contact(step.s, step.w),
-            table: table[sample],
-            state: &state,
-            block: step.u - slope,
-            friction_n: at.friction_n(),
-            f: &step.f,
-        };
-        recorder.store(&system, &stored, row);
-    };
     if step.mode != Mode::Stick && model.initial().sliding_velocity_m_per_s == 0.0 {
         events.push(event(EventKind::Slip, &step, 0.0));
     }
@@ -111,7 +77,7 @@ pub(super) fn solve(
         (from != to).then(|| stopping.change(time_s, step.w.abs(), from, to))
     };
     events.extend(touch(&step, 0.0).map(|kind| event(kind, &step, 0.0)));
-    note(0, &step, step.mode, true);
+    told.note(0, &step, step.mode, true);
     for sample in 1..motion.len() {
         let (next, iterations) = program.advance(&step, sample)?;
         pulse.tick(8 * iterations * (1 + n as u32))?;
@@ -122,18 +88,12 @@ pub(super) fn solve(
             sliding.begin(program.times_s[sample - 1], step.s);
             sliding.end(time_s, next.s);
         }
-        let kind = match (step.mode, next.mode) {
-            (Mode::Stick, Mode::Slip(_)) => Some(EventKind::Slip),
-            (Mode::Slip(_), Mode::Stick) => Some(EventKind::Stick),
-            (Mode::Slip(before), Mode::Slip(after)) if before != after => Some(EventKind::Reversal),
-            _ => None,
-        };
-        if let Some(kind) = kind {
-            note(sample, &next, step.mode, false);
+        if let Some(kind) = change(step.mode, next.mode) {
+            told.note(sample, &next, step.mode, false);
             events.push(event(kind, &next, time_s));
         }
         events.extend(touch(&next, time_s).map(|kind| event(kind, &next, time_s)));
-        note(sample, &next, next.mode, true);
+        told.note(sample, &next, next.mode, true);
         step = next;
     }
     if contact != Contact::Free {
@@ -145,7 +105,7 @@ pub(super) fn solve(
     let warnings = summary::warnings(model, &events, &contact_loss_s);
     let outcome = Outcome {
         events,
-        overturns: inertia.arms.is_some(),
+        overturns: told.inertia.arms.is_some(),
         sliding,
         stop: law.has_stop().then_some(stopping.demands),
         surfaces: Vec::new(),
@@ -155,14 +115,69 @@ pub(super) fn solve(
     };
     Ok(Response {
         method: Method::Stepwise,
-        demands: summary::demands(model, &outcome, |output| peaks[output.place(n)]),
+        demands: summary::demands(model, &outcome, |output| told.peaks[output.place(n)]),
         events: outcome.events,
-        history: Some(recorder.history),
+        history: Some(told.recorder.history),
         contact_loss_s,
         iterations: Some(Iterations { mean: total as f64 / (motion.len() - 1) as f64, max: most }),
         warnings,
         in_plane: None,
     })
+}
+
+/// The event that a change of mode is.
+fn change(before: Mode, after: Mode) -> Option<EventKind> {
+    match (before, after) {
+        (Mode::Stick, Mode::Slip(_)) => Some(EventKind::Slip),
+        (Mode::Slip(_), Mode::Stick) => Some(EventKind::Stick),
+        (Mode::Slip(before), Mode::Slip(after)) if before != after => Some(EventKind::Reversal),
+        _ => None,
+    }
+}
+
+/// Peaks and history so far.
+struct Told<'a> {
+    program: &'a Program<'a>,
+    table: &'a [f64],
+    slope: f64,
+    inertia: Inertia,
+    peaks: Vec<f64>,
+    recorder: Recorder,
+}
+
+impl<'a> Told<'a> {
+    fn new(program: &'a Program<'a>, model: &Model, motion: &'a GroundMotion) -> Self {
+        let (system, slope) = (program.system, model.slope_m_per_s2());
+        Self {
+            program,
+            table: motion.horizontal_m_per_s2(),
+            slope,
+            inertia: Inertia::new(model, &[]),
+            peaks: vec![0.0; Output::count(system.storeys, 0)],
+            recorder: Recorder::new(system, program.law, motion.len(), slope),
+        }
+    }
+
+    /// Takes a step at a sample in a mode, perhaps as a row of the history.
+    fn note(&mut self, sample: usize, step: &Step, mode: Mode, row: bool) {
+        let (program, slope) = (self.program, self.slope);
+        let at = AtSample { program, step, sample };
+        for (peak, output) in self.peaks.iter_mut().zip(Output::all(program.system.storeys, 0)) {
+            *peak = greatest(*peak, f64::abs(output.of(&at, &self.inertia, slope)));
+        }
+        let state = step.state();
+        let stored = Stored {
+            time_s: program.times_s[sample],
+            mode,
+            contact: program.contact(step.s, step.w),
+            table: self.table[sample],
+            state: &state,
+            block: step.u - slope,
+            friction_n: at.friction_n(),
+            f: &step.f,
+        };
+        self.recorder.store(program.system, &stored, row);
+    }
 }
 
 fn event(kind: EventKind, step: &Step, time_s: f64) -> Event {
@@ -245,6 +260,30 @@ struct Program<'a> {
     normal_n: Vec<f64>,
     /// `δ` of eqs (17), (18).
     tolerance_m_per_s2: f64,
+}
+
+impl<'a> Program<'a> {
+    fn new(
+        model: &Model,
+        motion: &'a GroundMotion,
+        (system, law): (&'a System, &'a Law<'a>),
+        tolerance_m_per_s2: f64,
+    ) -> Self {
+        let (mass_kg, gravity) = (model.total_mass_kg(), model.normal_gravity_m_per_s2());
+        let normal_n = |sample: usize| {
+            let vertical = motion.vertical_m_per_s2().map_or(0.0, |a| a[sample]);
+            greatest(0.0, mass_kg * (gravity + vertical))
+        };
+        let (table, slope) = (motion.horizontal_m_per_s2(), model.slope_m_per_s2());
+        Self {
+            system,
+            law,
+            times_s: motion.times_s(),
+            acceleration: table.iter().map(|a| a + slope).collect(),
+            normal_n: (0..motion.len()).map(normal_n).collect(),
+            tolerance_m_per_s2,
+        }
+    }
 }
 
 impl Program<'_> {

@@ -25,7 +25,7 @@ pub(super) fn of_peaks(
     width_m: Option<f64>,
     peak: impl Fn(Output) -> f64,
 ) -> Demands {
-    let (weight_n, has_masses) = (model.weight_n(), model.point_masses_kg().is_some());
+    let (weight_n, has_masses) = (model.weight_n(), model.has_point_masses());
     let of_point = |i: usize| {
         let peak_drift_m = peak(Output::Drift(i));
         StoreyDemands {

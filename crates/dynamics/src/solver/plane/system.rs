@@ -188,35 +188,10 @@ impl System {
             };
             Rows::new(&rows.iter().enumerate().map(drift).collect::<Vec<_>>())
         });
-        // What moves with the block: M_tot I − Σ L Lᵀ.
-        let [[x, across], [_, y]] = structure.mass_in_plane_kg();
-        let total_kg = model.total_mass_kg();
-        let own = [[total_kg - x, -across], [-across, total_kg - y]];
-        let with_block: Vec<Matrix> = (0..n).map(|i| structure.with_block_in_plane(i)).collect();
-        let is_rounding = |x: f64| x.abs() <= ROUNDED * (1.0 + (modes.len() as f64).sqrt());
-        let block_kg = 0.5 * (own[0][0] + own[1][1]);
-        let all_there = is_rounding(0.5 * (own[0][0] - own[1][1]) / total_kg)
-            && is_rounding(across / total_kg)
-            && with_block.iter().flatten().flatten().all(|x| is_rounding(*x));
-        let mass = if all_there { None } else { Some(Mass::new(own, block_kg)) };
-        let with_block = if all_there { Vec::new() } else { with_block };
-        let arms = structure.shares().map(|_| model.lever_arms().unwrap_or_default());
-        let widths = [model.block().width_m, model.along_y().width_m];
+        let (block_kg, mass, with_block) = mass_of_block(model, structure, modes.len());
         let masses_kg = model.point_masses_kg();
-        let moment = |k: usize| {
-            widths[k]?;
-            let (mut arm, mut along) = (vec![0.0; modes.len()], [0.0; 2]);
-            along[k] = 0.5 * model.block().height_m.unwrap_or(0.0) * model.bare_block_kg();
-            for (i, [mass_kg, above_m]) in arms.as_ref()?.iter().enumerate() {
-                let lever = mass_kg * above_m;
-                arm.iter_mut().zip(&floors[k][i]).for_each(|(arm, phi)| *arm += lever * phi);
-                if let Some(with_block) = with_block.get(i) {
-                    along.iter_mut().zip(with_block[k]).for_each(|(a, part)| *a += lever * part);
-                }
-            }
-            Some((Rows::new(&[arm]), along))
-        };
-        let overturning = [moment(0), moment(1)];
+        let overturning =
+            [0, 1].map(|k| moment_of_modes(model, structure, (k, &floors[k], &with_block)));
         let per_kg = 1.0 / block_kg;
         let omega2 = of_modes(&|mode| mode.frequency_rad_per_s * mode.frequency_rad_per_s);
         let damping = of_modes(&|mode| 2.0 * mode.damping_ratio * mode.frequency_rad_per_s);
@@ -393,6 +368,50 @@ impl System {
         };
         (0..self.modes()).map(of_mode).collect()
     }
+}
+
+/// What the modes and the block add to the overturning moment along an axis, where it is asked for.
+fn moment_of_modes(
+    model: &Model,
+    structure: &Structure,
+    (axis, floors, with_block): (usize, &[Vec<f64>], &[Matrix]),
+) -> Option<(Rows, [f64; 2])> {
+    structure.shares()?;
+    [model.block().width_m, model.along_y().width_m][axis]?;
+    let modes = floors.first().map_or(0, Vec::len);
+    let (mut arm, mut along) = (vec![0.0; modes], [0.0; 2]);
+    along[axis] = 0.5 * model.block().height_m.unwrap_or(0.0) * model.bare_block_kg();
+    for (i, [mass_kg, above_m]) in model.lever_arms()?.iter().enumerate() {
+        let lever = mass_kg * above_m;
+        arm.iter_mut().zip(&floors[i]).for_each(|(arm, phi)| *arm += lever * phi);
+        if let Some(with_block) = with_block.get(i) {
+            along.iter_mut().zip(with_block[axis]).for_each(|(a, part)| *a += lever * part);
+        }
+    }
+    Some((Rows::new(&[arm]), along))
+}
+
+/// What moves with the block of a structure by so many modes: its mass in kg, the same in each direction where it is not a
+/// multiple of the identity, and what of each point's motion is the block's, where something is.
+fn mass_of_block(
+    model: &Model,
+    structure: &Structure,
+    modes: usize,
+) -> (f64, Option<Mass>, Vec<Matrix>) {
+    // What moves with the block: M_tot I − Σ L Lᵀ.
+    let [[x, across], [_, y]] = structure.mass_in_plane_kg();
+    let total_kg = model.total_mass_kg();
+    let own = [[total_kg - x, -across], [-across, total_kg - y]];
+    let with_block: Vec<Matrix> =
+        (0..structure.points.len()).map(|i| structure.with_block_in_plane(i)).collect();
+    let is_rounding = |x: f64| x.abs() <= ROUNDED * (1.0 + (modes as f64).sqrt());
+    let block_kg = 0.5 * (own[0][0] + own[1][1]);
+    let all_there = is_rounding(0.5 * (own[0][0] - own[1][1]) / total_kg)
+        && is_rounding(across / total_kg)
+        && with_block.iter().flatten().flatten().all(|x| is_rounding(*x));
+    let mass = if all_there { None } else { Some(Mass::new(own, block_kg)) };
+    let with_block = if all_there { Vec::new() } else { with_block };
+    (block_kg, mass, with_block)
 }
 
 /// Of rows a point each, the sums of masses times those of a point and all after it.
