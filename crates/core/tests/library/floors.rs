@@ -288,6 +288,7 @@ fn profiles_are_those_of_single_runs() {
             "peak_displacement_m",
             "peak_drift_m",
             "peak_drift_ratio",
+            "peak_shear_n",
         ];
         assert_eq!(keys, expected);
         for (profile, over) in &profiles {
@@ -303,6 +304,7 @@ fn profiles_are_those_of_single_runs() {
                         "peak_displacement_m" => storey.peak_displacement_m,
                         "peak_drift_m" => storey.peak_drift_m,
                         "peak_drift_ratio" => storey.peak_drift_ratio.expect("heights"),
+                        "peak_shear_n" => storey.peak_shear_n.expect("masses"),
                         _ => storey.peak_acceleration_m_per_s2,
                     }
                 };
@@ -311,8 +313,9 @@ fn profiles_are_those_of_single_runs() {
             }
         }
     }
-    // Bounds, levels of four demands.
-    assert_eq!(histories.profiles.as_ref().map(|table| table.rows()), Some(3 * (3 + 2 + 2 + 2)));
+    // Bounds, levels of five demands.
+    let rows = histories.profiles.as_ref().map(|table| table.rows());
+    assert_eq!(rows, Some(3 * (3 + 2 + 2 + 2 + 2)));
 }
 
 /// Of a pair whose components are run separately the larger ordinate counts.

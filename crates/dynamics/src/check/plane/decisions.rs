@@ -3,9 +3,9 @@
 use super::super::collocation::POINTS;
 use super::super::ground::nearest;
 use super::super::structure::larger;
-use super::frame::{Loads, Pair, between, dot, norm, pair, unit};
+use super::frame::{Loads, Pair, State, between, dot, norm, pair, unit};
 use super::judge::{EventDirection, Minima, PlaneJudge, REST};
-use super::step::{FINE, State, Step, Stretch, sine};
+use super::step::{FINE, Step, Stretch, sine};
 use crate::response::Mode;
 
 /// Sine of the angle between velocity and push below which a motion is straight, and from which it is not.

@@ -17,7 +17,6 @@ use super::super::law::Law;
 use super::super::rate::SpeedLine;
 use super::super::structure::{Phase, StoreyDamping, Structure};
 use super::body::{Body, PointOfModes, parts_of};
-use super::step::State;
 use crate::model::{Model, StopKind, Structure as ByModes};
 use crate::slider::Direction;
 
@@ -130,6 +129,31 @@ impl Ring {
             })
         });
         [by_w, by_s]
+    }
+}
+
+/// Displacements and velocities, the block's first.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct State {
+    pub(super) x: Vec<f64>,
+    pub(super) v: Vec<f64>,
+    /// Whether the block presses the stop around it.
+    pub(super) pressed: bool,
+}
+
+impl State {
+    /// `w`.
+    pub(super) fn speed(&self) -> Pair {
+        [self.v[0], self.v[1]]
+    }
+
+    /// The block comes to rest in no time, the floors go on: `q̇_i += w`, then `w = 0`.
+    pub(super) fn lose_speed(&mut self, frame: &PlaneFrame<'_>) {
+        let w = self.speed();
+        for (i, v) in self.v.iter_mut().skip(2).enumerate() {
+            *v += frame.ridden(i, w);
+        }
+        self.v[..2].fill(0.0);
     }
 }
 

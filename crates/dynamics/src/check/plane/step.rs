@@ -17,7 +17,9 @@
 
 use super::super::collocation::{Column, NODES, POINTS, Rule, add, legendre};
 use super::super::rate::SpeedLine;
-use super::frame::{Loads, Pair, PlaneFrame, Under, between, cross, dot, norm, pair, times, unit};
+use super::frame::{
+    Loads, Pair, PlaneFrame, State, Under, between, cross, dot, norm, pair, times, unit,
+};
 use super::maps::{Blocks, Influence, Linear};
 use super::peaks::Acting;
 use crate::numerics::InstructionSet;
@@ -33,31 +35,6 @@ pub(super) const FINE: f64 = 1e-10;
 const MOST_PASSES: usize = 40;
 /// Unknowns of the block at the nodes.
 const UNKNOWNS: usize = 2 * NODES;
-
-/// Displacements and velocities, the block's first.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct State {
-    pub(super) x: Vec<f64>,
-    pub(super) v: Vec<f64>,
-    /// Whether the block presses the stop around it.
-    pub(super) pressed: bool,
-}
-
-impl State {
-    /// `w`.
-    pub(super) fn speed(&self) -> Pair {
-        [self.v[0], self.v[1]]
-    }
-
-    /// The block comes to rest in no time, the floors go on: `q̇_i += w`, then `w = 0`.
-    pub(super) fn lose_speed(&mut self, frame: &PlaneFrame<'_>) {
-        let w = self.speed();
-        for (i, v) in self.v.iter_mut().skip(2).enumerate() {
-            *v += frame.ridden(i, w);
-        }
-        self.v[..2].fill(0.0);
-    }
-}
 
 /// A stretch of time under linear loads.
 #[derive(Clone, Copy)]

@@ -63,7 +63,7 @@ pub(super) fn demands(
                 slip_count: count(EventKind::Slip),
                 stick_count: count(EventKind::Stick),
                 closest_stop: Some(sliding.closest_stop).filter(|margin| margin.is_finite()),
-                stop: model.stop().map(|_| stop),
+                stop: plane.system.ring.map(|_| stop),
                 gap_ratio: model.slider().gap_m().map(|gap_m| peak_m / gap_m),
                 overturning_ratio: plane.system.per_resisted.map(|_| peaks.overturning_ratio()),
                 ..by_part
