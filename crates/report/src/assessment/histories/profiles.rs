@@ -238,7 +238,7 @@ impl Profiles<'_> {
         for ((bound, named), style) in model.bounds.iter().enumerate().zip(GROUPS) {
             let label = match model.bounds.len() {
                 1 => model.statistic().to_owned(),
-                _ => named.name.to_owned(),
+                _ => format!("{} friction", named.name),
             };
             series.push(line(label, style, self.points(|place| self.governing(bound, place))));
         }
