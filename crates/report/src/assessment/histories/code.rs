@@ -119,7 +119,11 @@ impl HistoriesReport<'_> {
         let (bound, value) = governs.unwrap_or(("—", f64::NAN));
         let value = factor * value;
         let capacity = capacity.unwrap_or(f64::NAN);
-        let unit = self.display.unit(demand.dimension().into(), value.max(capacity));
+        // Sliding displacements in the unit of the headline.
+        let unit = match demand.name() == SHOWN[0] {
+            true => self.unit_of(&self.peaks()),
+            false => self.display.unit(demand.dimension().into(), value.max(capacity)),
+        };
         let counted = runs(counted);
         let over = counted.iter().filter(|(_, size)| factor * size > *limit).count();
         vec![

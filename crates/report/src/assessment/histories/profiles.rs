@@ -245,6 +245,18 @@ impl Profiles<'_> {
         series
     }
 
+    /// The names of levels at the left of a panel whose axis has their heights, where they do not crowd it.
+    fn level_names(&self) -> Vec<PlotSeries> {
+        let crowded = self.levels() >= MANY_LEVELS || self.model.levels_m.is_none();
+        let named = (0..self.levels()).filter(|_| !crowded).map(|level| PlotSeries {
+            label: shortened(&place_name(&self.model.names, level + 1), 16),
+            style: Style::MAIN,
+            shape: Shape::Named,
+            points: vec![[0.0, self.height(level)]],
+        });
+        named.collect()
+    }
+
     fn panel(&self, is_first: bool) -> Panel {
         let mut series = self.series();
         if !is_first {
@@ -252,6 +264,9 @@ impl Profiles<'_> {
         }
         let values = series.iter().flat_map(|series| &series.points).map(|point| point[0]);
         let x = Axis::from_zero(self.unit.label(&self.title()), values.collect::<Vec<_>>());
+        if is_first {
+            series.extend(self.level_names());
+        }
         panel(x, self.axis(is_first), 260.0, series)
     }
 }
