@@ -205,7 +205,7 @@ pub(crate) fn name_table(out: &mut Markup, caption: &str, rows: &[(&str, String)
 }
 
 /// Rows of a table up to which it is not broken over two pages.
-const KEPT_ROWS: usize = 14;
+const KEPT_ROWS: usize = 24;
 
 /// Characters of a cell from which on a table is one of sentences.
 const SENTENCE: usize = 60;

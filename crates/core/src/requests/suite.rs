@@ -48,8 +48,8 @@ impl Request {
                 warnings.push(warning);
             }
         }
-        let (code, given) = self.code()?;
-        let factors = self.property_factors()?.map(|factors| limited(factors, &code, &given));
+        let code = self.code()?;
+        let factors = self.property_factors()?.map(|factors| limited(factors, code.as_ref()));
         let plan = self.given("eccentricity").map(Plan::parse).transpose()?;
         // Factors take the place of the model's own bounds, and those of a code stand where there are none.
         let bounded = |on: &On<'_>| {
@@ -74,7 +74,7 @@ impl Request {
         let at = |scaling: &Scaling, hazard: Option<&str>, further: bool, kept: Kept<'_>| {
             let mut histories = run_histories(&on, scaling, kept, engine)?;
             let judged = code.as_ref().map(|code| {
-                let besides = Besides { code, given: &given, plan, hazard, further };
+                let besides = Besides { code, plan, hazard, further };
                 judgements(&mut histories, &analyses, scaling, &besides)
             });
             Ok::<_, AssessmentError>((histories, judged.unwrap_or_default()))
@@ -129,7 +129,7 @@ impl Request {
             };
             let is_first = hazards.is_empty();
             let alike = hazards.iter().any(|(known, _)| *known == name);
-            if name.is_empty() || alike || is_first != (!text.contains('=')) {
+            if name.is_empty() || alike || is_first == text.contains('=') {
                 return Err(refused());
             }
             hazards.push((name, factor));
@@ -138,16 +138,12 @@ impl Request {
     }
 
     /// The code that is asked for, and what it is given besides the model.
-    fn code(&self) -> Result<(Option<Code>, Vec<(String, f64)>), AssessmentError> {
+    fn code(&self) -> Result<Option<Code>, AssessmentError> {
         let texts: Vec<&str> = self.all("code-values").collect();
         match (self.given("code"), texts.first()) {
-            (Some(name), _) => {
-                let code = Code::named(name)?;
-                let given = code.given(&texts)?;
-                Ok((Some(code), given))
-            }
+            (Some(name), _) => Ok(Some(Code::named(name)?.with_values(&texts)?)),
             (None, Some(text)) => Err(wrong("code-values", "`code` beside them", text).into()),
-            (None, None) => Ok((None, Vec::new())),
+            (None, None) => Ok(None),
         }
     }
 
@@ -348,20 +344,15 @@ fn effective_periods(
 }
 
 /// Property factors with the limits of a code, unless these or qualification tests are stated.
-fn limited(
-    factors: PropertyFactors,
-    code: &Option<Code>,
-    given: &[(String, f64)],
-) -> PropertyFactors {
-    let tested = given.iter().any(|(name, value)| name == "qualification_tests" && *value > 0.0);
-    let of_code = code.as_ref().and_then(|code| code.limits).filter(|_| !tested);
+fn limited(factors: PropertyFactors, code: Option<&Code>) -> PropertyFactors {
+    let of_code = code.filter(|code| !code.is_given("qualification_tests"));
+    let of_code = of_code.and_then(|code| code.limits);
     PropertyFactors { limits: factors.limits.or(of_code), ..factors }
 }
 
 /// What a code is asked with besides models and runs.
 struct Besides<'a> {
     code: &'a Code,
-    given: &'a [(String, f64)],
     plan: Option<Plan>,
     hazard: Option<&'a str>,
     further: bool,
@@ -375,7 +366,7 @@ fn judgements(
     scaling: &Scaling,
     besides: &Besides<'_>,
 ) -> Vec<Judgement> {
-    let Besides { code, given, plan, hazard, further } = besides;
+    let Besides { code, plan, hazard, further } = besides;
     let (hazard, further) = (*hazard, *further);
     let (spectrum, range_s) = match scaling {
         Scaling::Target(spectrum, range_s) => (Some(spectrum), Some(*range_s)),
@@ -391,7 +382,6 @@ fn judgements(
             hazard,
             further,
             plan: plan.as_ref(),
-            given,
         };
         judge(code, judged)
     });

@@ -110,8 +110,6 @@ pub struct Judged<'a> {
     pub further: bool,
     /// Plan of the building.
     pub plan: Option<&'a Plan>,
-    /// What the code asks for and was given.
-    pub given: &'a [(String, f64)],
 }
 
 /// The same with what is made of it once.
@@ -194,7 +192,7 @@ impl<'a> Quantities<'a> {
             return self.value(&value.formula, at);
         }
         if let Some(input) = self.code.inputs.iter().find(|input| input.name == name) {
-            if let Some((_, value)) = self.of.given.iter().find(|(given, _)| given == name) {
+            if let Some((_, value)) = self.code.given.iter().find(|(given, _)| given == name) {
                 return Ok(*value);
             }
             let or = input.or.as_ref().and_then(|or| self.value(or, at).ok());

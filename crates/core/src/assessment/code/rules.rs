@@ -46,6 +46,8 @@ pub struct Code {
     pub(super) values: Vec<CodeValue>,
     pub(super) distributions: Vec<Distribution>,
     pub(super) rules: Vec<Rule>,
+    /// What is given of its inputs, in SI.
+    pub(super) given: Vec<(String, f64)>,
 }
 
 /// What a code asks for and no model says.
@@ -189,6 +191,7 @@ impl Code {
             values,
             distributions,
             rules: each("rule").iter().map(Reader::rule).collect::<Result<Vec<_>, _>>()?,
+            given: Vec::new(),
         };
         code.check()?;
         Ok(code)
@@ -230,11 +233,17 @@ impl Code {
         Ok(())
     }
 
-    /// What is given of what it asks for, `R = 4, V_wind = 400 kN`, in SI.
+    /// Whether a value that it asks for is given and is not 0.
+    #[must_use]
+    pub fn is_given(&self, name: &str) -> bool {
+        self.given.iter().any(|(given, value)| given == name && *value > 0.0)
+    }
+
+    /// The code with what is given of what it asks for, `R = 4, V_wind = 400 kN`.
     ///
     /// # Errors
     /// [`ChoiceError`] for `code-values` where a name is none of those that the code asks for, or a value does not fit.
-    pub fn given(&self, texts: &[&str]) -> Result<Vec<(String, f64)>, ChoiceError> {
+    pub fn with_values(self, texts: &[&str]) -> Result<Self, ChoiceError> {
         let mut given: Vec<(String, f64)> = Vec::new();
         let refused = |expected: String, found: &str, nearest| ChoiceError {
             what: "code-values".to_owned(),
@@ -276,7 +285,7 @@ impl Code {
             };
             given.push((name.to_owned(), value));
         }
-        Ok(given)
+        Ok(Self { given, ..self })
     }
 }
 
@@ -412,10 +421,10 @@ mod tests {
     fn a_value_that_no_code_asks_for_is_refused_by_name() {
         let code = Code::named("asce7-22").unwrap();
         assert_eq!(
-            code.given(&["R_I = 2, V_wind = 400 kN"]).unwrap(),
+            code.clone().with_values(&["R_I = 2, V_wind = 400 kN"]).unwrap().given,
             [("R_I".to_owned(), 2.0), ("V_wind".to_owned(), 400e3)]
         );
-        let error = |text: &str| code.given(&[text]).unwrap_err().to_string();
+        let error = |text: &str| code.clone().with_values(&[text]).unwrap_err().to_string();
         assert!(error("RI = 2").contains("nearest is \"R_I\""), "{}", error("RI = 2"));
         assert!(error("V_wind = 400").contains("with a unit, 12 kN"), "{}", error("V_wind = 400"));
         assert!(error("R").starts_with("code-values: expected values by their names"));

@@ -37,7 +37,7 @@ fn side(Side { bound, direction }: Side) -> String {
 /// A clause as words: one that is a number behind a sign for it.
 fn place(clause: &str) -> String {
     match clause.starts_with(|c: char| c.is_ascii_digit()) {
-        true => format!("§ {clause}"),
+        true => format!("§\u{a0}{clause}"),
         false => clause.to_owned(),
     }
 }
