@@ -16,7 +16,7 @@ pub use laboratory::Comparing;
 pub use single::Single;
 pub use suite::{code_spectrum, periods};
 
-use crate::assessment::code::{Plan, PropertyFactors};
+use crate::assessment::code::{Judgement, Plan, PropertyFactors};
 use crate::assessment::derivative::{DerivativeRequest, DerivativeRun, run_derivatives};
 use crate::assessment::design::{DesignRequest, DesignRun, Target, run_design};
 use crate::assessment::grid::levels;
@@ -91,6 +91,8 @@ pub struct Answer {
     pub scaled: String,
     /// What reading them gave notice of.
     pub warnings: Vec<Notice>,
+    /// Project, author and date, as they are given for the report.
+    pub title: Vec<(&'static str, String)>,
     /// What came of it.
     pub found: Results,
 }
@@ -108,6 +110,10 @@ pub enum Results {
         factors: Option<PropertyFactors>,
         /// Plan of the building, for the total displacement.
         plan: Option<Plan>,
+        /// What a code makes of each model, in their order; none without a code.
+        judgements: Vec<Judgement>,
+        /// The same models and records at further intensities.
+        others: Vec<AtHazard>,
     },
     /// A sliding spectrum.
     Spectrum(SpectrumRun),
@@ -154,12 +160,35 @@ pub enum Results {
     },
 }
 
+/// What came of models on their suites at an intensity besides the first.
+#[derive(Clone, Debug)]
+pub struct AtHazard {
+    /// What the intensity is called.
+    pub name: String,
+    /// The factor on the first.
+    pub factor: f64,
+    /// What came of it.
+    pub histories: Histories,
+    /// What a code makes of each model, in their order; none without a code.
+    pub judgements: Vec<Judgement>,
+}
+
 impl Results {
     /// How many runs were certified; none of a table that does not say so.
     #[must_use]
     pub fn certified(&self) -> Option<Certified> {
         match self {
-            Self::Suite { histories, .. } => Some(histories.certified()),
+            Self::Suite { histories, others, .. } => {
+                let mut all = histories.certified();
+                for AtHazard { name, histories, .. } in others {
+                    let mut at = histories.certified();
+                    let worst = at.worst.iter_mut().map(|worst| &mut worst.run);
+                    let refused = at.unconfirmed.iter_mut().map(|refused| &mut refused.run);
+                    worst.chain(refused).for_each(|run| *run = format!("{run} at {name}"));
+                    all.join(at);
+                }
+                Some(all)
+            }
             Self::Spectrum(run) => Some(run.certified.clone()),
             Self::Sensitivity(run) => Some(run.certified()),
             Self::Ida { run, .. } => Some(run.certified.clone()),
@@ -215,6 +244,7 @@ impl Request {
             records: on.suite.recorded(),
             scaled: if on.suite.made { String::new() } else { scaled },
             warnings: on.suite.noticed(),
+            title: Vec::new(),
             found,
         })
     }
@@ -291,6 +321,7 @@ impl Request {
             records: Vec::new(),
             scaled: String::new(),
             warnings: Vec::new(),
+            title: Vec::new(),
             found: Results::Fragility { demand, limit, confidence, certified, curves },
         })
     }

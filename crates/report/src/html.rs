@@ -52,6 +52,8 @@ pub(crate) struct Frame<'a> {
     pub kind: &'static str,
     /// What the page is about.
     pub name: &'a str,
+    /// Names and values of the title block.
+    pub title: &'a [(&'static str, String)],
     /// Below the name.
     pub line: &'a str,
     /// The command as it was typed.
@@ -75,7 +77,15 @@ pub(crate) fn document(frame: &Frame) -> String {
         .raw(frame.kind)
         .raw("</p>\n")
         .element("h1", frame.name)
-        .raw("\n<p>")
+        .raw("\n");
+    if !frame.title.is_empty() {
+        out.raw("<dl class=\"title\">\n");
+        for (name, text) in frame.title {
+            out.raw("<div>").element("dt", name).element("dd", text).raw("</div>\n");
+        }
+        out.raw("</dl>\n");
+    }
+    out.raw("<p>")
         .text(frame.line)
         .raw("</p>\n</header>\n<main>\n")
         .append(frame.body)
@@ -194,16 +204,29 @@ pub(crate) fn name_table(out: &mut Markup, caption: &str, rows: &[(&str, String)
     out.raw("</tbody>\n</table>\n");
 }
 
+/// Rows of a table up to which it is not broken over two pages.
+const KEPT_ROWS: usize = 24;
+
+/// Characters of a cell from which on a table is one of sentences.
+const SENTENCE: usize = 60;
+
 /// A table whose first row are heads and whose first column are names.
 pub(crate) fn number_table(out: &mut Markup, rows: &[Vec<String>]) {
     let Some((heads, rows)) = rows.split_first() else { return };
     let wide = heads.len() > 6;
     out.raw(if wide { "<div class=\"small\">\n" } else { "" });
+    // A table of few rows stands on one page; one of sentences has its names wide.
+    let short = rows.len() <= KEPT_ROWS;
+    let sentences = rows.iter().flatten().any(|cell| cell.chars().count() > SENTENCE);
+    out.raw(if sentences { "<div class=\"sentences\">\n" } else { "" });
     // A column with words is set as words.
     let numbers: Vec<bool> = (0..heads.len())
         .map(|i| i > 0 && rows.iter().filter_map(|row| row.get(i)).all(|cell| is_number(cell)))
         .collect();
     let heads: Vec<_> = heads.iter().cloned().zip(numbers.iter().copied()).collect();
+    if short {
+        out.raw("<div class=\"short\">\n");
+    }
     table_head(out, &heads);
     for row in rows {
         for (i, cell) in row.iter().enumerate() {
@@ -230,7 +253,9 @@ pub(crate) fn number_table(out: &mut Markup, rows: &[Vec<String>]) {
         }
         out.raw("</tr>\n");
     }
-    out.raw("</tbody>\n</table>\n").raw(if wide { "</div>\n" } else { "" });
+    out.raw("</tbody>\n</table>\n").raw(if short { "</div>\n" } else { "" });
+    out.raw(if sentences { "</div>\n" } else { "" });
+    out.raw(if wide { "</div>\n" } else { "" });
 }
 
 /// Numbers are set as in print, words as they are.

@@ -565,7 +565,7 @@ fn report_of_a_suite_says_what_it_is_of() {
         "Effective damping β_M (%)",
         "Displacement D_M (mm)",
         "over D_M",
-        "Demand and capacity Demand, maximum Friction Capacity Used (%) Runs beyond Gap (mm)",
+        "Demand and capacity Demand, maximum Friction Capacity Used (%) Runs beyond Gap, demand with torsion × 1.360",
         "Total displacement D_TM = 1.360 D_M (mm)",
         "* governs: the bound of friction with the larger value, of each record and of all.",
     ] {
@@ -664,7 +664,10 @@ fn notices_of_every_record_of_a_suite_are_kept() {
     let said = first["message"].as_str().unwrap();
     assert!(said.starts_with("r0: ") && said.ends_with("(and 1 of the other records)"), "{said}");
     let page = folder.read("out/report.html");
-    assert!(page.contains("<strong>r1</strong>: warning, first sample not zero: "), "{page}");
+    assert!(
+        page.contains("<strong>first sample not zero</strong> (warning): r0, r1. The first: "),
+        "{page}"
+    );
     assert!(page.contains(&format!("model {}", summary["model_hash"].as_str().unwrap())));
 }
 

@@ -5,6 +5,7 @@
 mod accepted;
 mod assessment;
 mod cases;
+mod codes;
 mod endings;
 mod field;
 mod files;

@@ -1,5 +1,17 @@
 //! What a code asks beside the model, as people write it: property modification factors and the plan of the
-//! building (ASCE/SEI 7, chapter 17).
+//! building (ASCE/SEI 7, chapter 17); and what codes require of a model and its runs, judged row by row.
+
+mod formula;
+mod judgement;
+mod quantities;
+mod rules;
+
+pub use judgement::{
+    Compared, FoundValue, JudgedRule, Judgement, LevelForces, Side, judge, verdict,
+};
+pub use quantities::Judged;
+pub(crate) use quantities::bounds_of;
+pub use rules::{CODES, Code, CodeUnit};
 
 use super::lateral::LEAST_TOTAL;
 use crate::error::ChoiceError;

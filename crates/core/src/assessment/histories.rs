@@ -17,6 +17,7 @@ use super::{AssessmentError, FailedRun};
 use crate::error::{ChoiceError, RunError, Stopped, similar};
 use crate::input::loaded::Loaded;
 use crate::input::{Analysis, Bound, Names};
+use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::motion::target::{Matched, TargetSpectrum};
 use crate::notice::Notice;
@@ -93,6 +94,8 @@ pub struct OnRecord {
 pub struct CertifiedRun {
     /// Its demands.
     pub demands: Demands,
+    /// In two directions those along x and along y.
+    pub axes: Option<Box<[Demands; 2]>>,
     /// What the check does not confirm of it; none where its certificate holds.
     pub defect: Option<String>,
     /// The largest figure of its certificate by its name; none of a run without one.
@@ -131,6 +134,10 @@ pub struct ModelHistories {
     pub hash: String,
     /// What its block and its storeys are called.
     pub names: Names,
+    /// Weight `W` of all that is isolated, in N.
+    pub weight_n: f64,
+    /// Weight `W_s` of the structure above the block, where there is one, in N.
+    pub above_block_n: Option<f64>,
     /// The gap of its slider in m, where it has one.
     pub gap_m: Option<f64>,
     /// Travel of each of its surfaces in series in m, where it ends.
@@ -271,6 +278,26 @@ impl ModelHistories {
         }
     }
 
+    /// What governs over the suite of a demand with a bound: of the resultant, or along one of two directions where an axis
+    /// is given; none where a run does not have it.
+    #[must_use]
+    pub fn governing_along(
+        &self,
+        bound: usize,
+        axis: Option<usize>,
+        of: impl Fn(&Demands) -> Option<f64>,
+    ) -> Option<f64> {
+        let over = self.over_suite(|on| {
+            let run = on.runs.get(bound).and_then(|run| run.as_ref().ok());
+            let demands = run.map(|run| match (&run.axes, axis) {
+                (Some(axes), Some(axis)) => &axes[axis],
+                _ => &run.demands,
+            });
+            demands.and_then(&of).map_or(f64::NAN, f64::abs)
+        });
+        over.map(|over| self.governing_of(&over))
+    }
+
     /// Number of pairs, or of records alone, that the mean or the maximum is of.
     #[must_use]
     pub fn counted(&self) -> usize {
@@ -374,6 +401,8 @@ pub fn run_histories(
             name: model.name.to_owned(),
             hash: model.analysis.hash(),
             names: model.analysis.names.clone(),
+            weight_n: model.analysis.model.weight_n(),
+            above_block_n: above_block_n(&model.analysis.model),
             gap_m: slider.gap_m(),
             travels_m: slider.surfaces().iter().map(|on| on.travel_m).collect(),
             stop_m: slider.stop_m(),
@@ -466,8 +495,17 @@ fn chosen(
     Ok(ran.into_iter().flatten().collect())
 }
 
+/// Weight above the block in N; none of a block alone.
+fn above_block_n(model: &Model) -> Option<f64> {
+    let of_frame = || model.frame().masses_kg.iter().sum::<f64>();
+    let structure_kg = model.structure().map_or_else(of_frame, |structure| structure.mass_kg);
+    let contents = model.contents().iter().filter(|contents| contents.floor > 0);
+    let contents_kg: f64 = contents.map(|contents| contents.mass_kg).sum();
+    (structure_kg > 0.0).then(|| (structure_kg + contents_kg) * model.gravity_m_per_s2())
+}
+
 /// The bounds of friction that an analysis asks for.
-fn bounds(analysis: &Analysis) -> Vec<Bound> {
+pub(crate) fn bounds(analysis: &Analysis) -> Vec<Bound> {
     analysis.friction_bounds.map_or_else(|| vec![Bound::NOMINAL], |bounds| bounds.all().to_vec())
 }
 
@@ -480,6 +518,7 @@ pub(crate) fn lateral(analysis: &Analysis, spectrum: &TargetSpectrum) -> Vec<Opt
 /// What is kept of a run.
 struct RunFigures {
     demands: Demands,
+    axes: Option<Box<[Demands; 2]>>,
     defect: Option<String>,
     largest: Option<(String, f64)>,
     alone: Option<Alone>,
@@ -508,6 +547,7 @@ impl RunFigures {
             floor_spectra,
             sliding,
             noticed: [job.warnings, response.warnings, met.collect()],
+            axes: response.in_plane.map(|plane| Box::new(plane.axes)),
             demands: response.demands,
         }
     }
@@ -603,8 +643,8 @@ impl OnRecord {
         }
         self.sliding = kept.sliding.unwrap_or_else(|| core::mem::take(&mut self.sliding));
         self.notices.extend(of_response.into_iter().chain(met.into_iter().map(of_bound)));
-        let RunFigures { demands, defect, largest, floor_spectra, .. } = kept;
-        CertifiedRun { demands, defect, largest, floor_spectra }
+        let RunFigures { demands, axes, defect, largest, floor_spectra, .. } = kept;
+        CertifiedRun { demands, axes, defect, largest, floor_spectra }
     }
 }
 

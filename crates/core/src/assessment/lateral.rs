@@ -39,6 +39,15 @@ impl LateralForce {
     /// friction that follows the speed, of which a hand takes no loop.
     #[must_use]
     pub fn of(model: &Model, spectrum: &TargetSpectrum) -> Option<Self> {
+        Self::by_law(model, spectrum, &|ratio| Some(damping_factor(ratio)))
+    }
+
+    /// The same by another law of the factor by which an effective damping divides the spectrum.
+    pub(super) fn by_law(
+        model: &Model,
+        spectrum: &TargetSpectrum,
+        damping_factor: &dyn Fn(f64) -> Option<f64>,
+    ) -> Option<Self> {
         let loops = Loop::of(model)?;
         let reach = model.slider().reach_m();
         let (weight_n, g) = (model.weight_n(), model.gravity_m_per_s2());
@@ -47,7 +56,7 @@ impl LateralForce {
             let stiffness_n_per_m = force * weight_n / displacement_m;
             let period_s = core::f64::consts::TAU * (displacement_m / (force * g)).sqrt();
             let damping_ratio = area_m / (core::f64::consts::TAU * force * displacement_m);
-            let damping_factor = damping_factor(damping_ratio);
+            let damping_factor = damping_factor(damping_ratio)?;
             let rate = core::f64::consts::TAU / period_s;
             let of_spectrum = spectrum.at(period_s)? / (rate * rate * damping_factor);
             let passes = reach.filter(|(_, reach_m)| displacement_m > *reach_m);
@@ -87,14 +96,17 @@ impl LateralForce {
 /// `B_M` of an effective damping.
 #[must_use]
 pub fn damping_factor(ratio: f64) -> f64 {
-    let above = DAMPING.partition_point(|[damping, _]| *damping < ratio);
-    match above {
-        0 => DAMPING[0][1],
-        i if i == DAMPING.len() => DAMPING[i - 1][1],
-        i => {
-            let ([from, low], [to, high]) = (DAMPING[i - 1], DAMPING[i]);
-            low + (high - low) * (ratio - from) / (to - from)
-        }
+    interpolated(&DAMPING, ratio)
+}
+
+/// The value at `x` between rows `[x, value]` of a table, `x` rising; beyond its ends that of the end. NaN of no row.
+pub(super) fn interpolated(table: &[[f64; 2]], x: f64) -> f64 {
+    let above = table.partition_point(|[at, _]| *at < x);
+    let row = |i: usize| table.get(i).copied();
+    match (above.checked_sub(1).and_then(row), row(above)) {
+        (None, None) => f64::NAN,
+        (None, Some([_, value])) | (Some([_, value]), None) => value,
+        (Some([from, low]), Some([to, high])) => low + (high - low) * (x - from) / (to - from),
     }
 }
 
@@ -104,12 +116,13 @@ pub fn damping_factor(ratio: f64) -> f64 {
 ///
 /// Beyond the travel of all of them the surface that reaches its end last goes on: how far the spectrum asks for is
 /// then known, and that it is too far.
-struct Loop {
+pub(super) struct Loop {
     surfaces: Vec<Surface>,
 }
 
 impl Loop {
-    fn of(model: &Model) -> Option<Self> {
+    /// That of a model; none of friction that follows the speed.
+    pub(super) fn of(model: &Model) -> Option<Self> {
         let surfaces = model.slider().slow_surfaces(model.normal_n(), model.weight_n())?;
         Some(Self::new(surfaces))
     }
@@ -125,8 +138,18 @@ impl Loop {
         Self { surfaces }
     }
 
+    /// Energy over the weight in m that pushing to a displacement stores in the curvature of the surfaces.
+    pub(super) fn stored_m(&self, displacement_m: f64) -> f64 {
+        let [force, _] = self.at(displacement_m);
+        let of = |surface: &Surface| {
+            let slid_m = slid(surface, force);
+            surface.radius_m.map_or(0.0, |radius_m| 0.5 * slid_m * slid_m / radius_m)
+        };
+        self.surfaces.iter().map(of).sum()
+    }
+
     /// Force over the weight at a displacement > 0, and the area of the loop over the weight in m.
-    fn at(&self, displacement_m: f64) -> [f64; 2] {
+    pub(super) fn at(&self, displacement_m: f64) -> [f64; 2] {
         let starts = self.surfaces.iter().map(|surface| surface.friction);
         let mut forces: Vec<f64> = starts.chain(self.surfaces.iter().filter_map(end_of)).collect();
         forces.sort_by(f64::total_cmp);

@@ -38,6 +38,16 @@ pub enum Scaling {
 }
 
 impl Scaling {
+    /// The same to an intensity of so many times that; pairs over the same range of periods.
+    #[must_use]
+    pub fn times(&self, factor: f64) -> Self {
+        match self {
+            Self::Factor(own) => Self::Factor(factor * own),
+            Self::Level(measure, level) => Self::Level(*measure, factor * level),
+            Self::Target(spectrum, range_s) => Self::Target(scaled(spectrum, factor), *range_s),
+        }
+    }
+
     /// That to one level of a measure as people write it; `what` is what errors call the level.
     ///
     /// # Errors
@@ -51,6 +61,21 @@ impl Scaling {
             [value] => Ok(Self::Level(measure, value)),
             _ => Err(refuse(what, "one level", format!("{text:?}"))),
         }
+    }
+}
+
+/// A spectrum with ordinates so many times as large.
+fn scaled(spectrum: &TargetSpectrum, factor: f64) -> TargetSpectrum {
+    match spectrum {
+        TargetSpectrum::Points { periods_s, sa_m_per_s2 } => TargetSpectrum::Points {
+            periods_s: periods_s.clone(),
+            sa_m_per_s2: sa_m_per_s2.iter().map(|sa| factor * sa).collect(),
+        },
+        TargetSpectrum::Code { sds_m_per_s2, sd1_m_per_s2, tl_s } => TargetSpectrum::Code {
+            sds_m_per_s2: factor * sds_m_per_s2,
+            sd1_m_per_s2: factor * sd1_m_per_s2,
+            tl_s: *tl_s,
+        },
     }
 }
 

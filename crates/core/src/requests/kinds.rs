@@ -1,6 +1,7 @@
 //! The analyses and their fields: a table from which every door makes its options, keywords or form.
 
 use super::fields::{Field, FrontEnd, Takes};
+use crate::assessment::code::CODES;
 
 const PATH_VALUES: &str = "PATH=VALUES";
 
@@ -127,14 +128,35 @@ const SUITE: &[Field] = &[
          and 1.25 effective periods of the hand calculation if left out",
     ),
     PROPERTY_FACTORS,
-    Field::new("hazard", "NAME", "What the report of a suite calls this intensity: MCE_R, DE"),
+    Field::new(
+        "hazard",
+        "NAME[=FACTOR]",
+        "What the report of a suite calls this intensity: MCE_R; repeated with a factor on it for a further one beside it: \
+         DE=0.6667",
+    )
+    .many(),
     Field::new(
         "eccentricity",
         "LENGTHS",
         "Plan of the building, for the total displacement of the hand calculation: \"e = 1.2 m, y = 9 m, \
          b = 18 m, d = 24 m, pt = 1.1\"",
     ),
+    Field::new(
+        "code",
+        "CODE",
+        "Code whose requirements are judged row by row: demand, capacity, ratio, or why a row is not judged",
+    )
+    .of(CODES),
+    Field::new(
+        "code-values",
+        "VALUES",
+        "What the code asks for and no model says: \"R = 4, I_e = 1.5, S_1 = 0.9, V_wind = 900 kN\"; may be repeated",
+    )
+    .many(),
     FLOOR_SPECTRUM,
+    Field::new("project", "NAME", "Project, for the title block of the report"),
+    Field::new("author", "NAME", "Who answers for the report, for its title block"),
+    Field::new("date", "DATE", "Date of the report as it is to be printed, for its title block"),
     Field::new(
         "history-of",
         "RECORD",

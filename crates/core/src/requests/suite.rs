@@ -1,17 +1,19 @@
 //! What is asked of models on the records of suites, and of one motion over a parameter.
 
 use super::fields::{Request, quantity, wrong};
-use super::{Answer, Kind, On, Results, of_measure};
-use crate::assessment::code::{Plan, named};
+use super::{Answer, AtHazard, Kind, On, Results, of_measure};
+use crate::assessment::code::{
+    Code, Judged, Judgement, Plan, PropertyFactors, bounds_of, judge, named,
+};
 use crate::assessment::grid::levels;
-use crate::assessment::histories::{Kept, ModelOn, lateral, run_histories};
+use crate::assessment::histories::{Histories, Kept, ModelOn, bounds, lateral, run_histories};
 use crate::assessment::lateral::LateralForce;
 use crate::assessment::models::Models;
 use crate::assessment::suite::{Scaling, times};
 use crate::assessment::sweep::Sweep;
 use crate::assessment::{AssessmentError, refuse};
 use crate::error::ChoiceError;
-use crate::input::Analysis;
+use crate::input::{Analysis, Bound};
 use crate::motion::GroundMotion;
 use crate::motion::intensity::LevelMeasure;
 use crate::motion::target::TargetSpectrum;
@@ -46,17 +48,22 @@ impl Request {
                 warnings.push(warning);
             }
         }
-        let factors = self.property_factors()?;
+        let code = self.code()?;
+        let factors = self.property_factors()?.map(|factors| limited(factors, code.as_ref()));
         let plan = self.given("eccentricity").map(Plan::parse).transpose()?;
-        // Factors take the place of the model's own bounds.
+        // Factors take the place of the model's own bounds, and those of a code stand where there are none.
         let bounded = |on: &On<'_>| {
             let mut analysis = on.analysis.clone();
-            analysis.friction_bounds = factors.map(|f| f.bounds()).or(analysis.friction_bounds);
+            let of_code = code.as_ref().and_then(bounds_of);
+            let own = analysis.friction_bounds;
+            analysis.friction_bounds = factors.map(|f| f.bounds()).or(own).or(of_code);
             analysis
         };
         let analyses: Vec<Analysis> = models.iter().map(bounded).collect();
-        let (scaling, scaled) = self.scaling(target, &analyses)?;
-        warnings.extend(self.assumed_code(&scaling, &analyses));
+        let (scaling, scaled) = self.scaling_by(target, &analyses, code.as_ref())?;
+        if code.is_none() {
+            warnings.extend(self.assumed_code(&scaling, &analyses));
+        }
         let pairs = models.iter().zip(&analyses);
         let on: Vec<ModelOn<'_>> = pairs
             .map(|(on, analysis)| ModelOn { name: on.name, analysis, suite: on.suite })
@@ -64,6 +71,25 @@ impl Request {
         let histories_of: Vec<&str> = self.all("history-of").collect();
         let floor_spectra = self.given("floor-spectrum").is_some();
         let kept = Kept { floor_spectra, histories_of: &histories_of };
+        let at = |scaling: &Scaling, hazard: Option<&str>, further: bool, kept: Kept<'_>| {
+            let mut histories = run_histories(&on, scaling, kept, engine)?;
+            let judged = code.as_ref().map(|code| {
+                let besides = Besides { code, plan, hazard, further };
+                judgements(&mut histories, &analyses, scaling, &besides)
+            });
+            Ok::<_, AssessmentError>((histories, judged.unwrap_or_default()))
+        };
+        let hazards = self.hazards()?;
+        let (first, rest) =
+            hazards.split_first().map_or((None, &[][..]), |(one, rest)| (Some(one), rest));
+        let (histories, judgements) = at(&scaling, first.map(|(name, _)| *name), false, kept)?;
+        let other = |(name, factor): &(&str, f64)| {
+            let kept = Kept { histories_of: &[], ..kept };
+            let (histories, judgements) = at(&scaling.times(*factor), Some(name), true, kept)?;
+            Ok(AtHazard { name: (*name).to_owned(), factor: *factor, histories, judgements })
+        };
+        let others: Vec<AtHazard> =
+            rest.iter().map(other).collect::<Result<_, AssessmentError>>()?;
         let names: Vec<&str> = models.iter().map(|on| on.name).collect();
         let hashes: Vec<String> = models.iter().map(|on| on.analysis.hash()).collect();
         Ok(Answer {
@@ -72,13 +98,53 @@ impl Request {
             records: models.first().map_or_else(Vec::new, |on| on.suite.recorded()),
             scaled: if models.iter().all(|on| on.suite.made) { String::new() } else { scaled },
             warnings,
+            title: ["project", "author", "date"]
+                .into_iter()
+                .filter_map(|name| Some((name, self.given(name)?.to_owned())))
+                .collect(),
             found: Results::Suite {
-                histories: run_histories(&on, &scaling, kept, engine)?,
-                hazard: self.given("hazard").map(str::to_owned),
+                histories,
+                hazard: first.map(|(name, _)| (*name).to_owned()),
                 factors,
                 plan,
+                judgements,
+                others,
             },
         })
+    }
+
+    /// The intensities in their order, each with the factor on what the records are scaled to; that of the first is 1.
+    fn hazards(&self) -> Result<Vec<(&str, f64)>, ChoiceError> {
+        let expected = "a name, and after the first a factor on it: MCE_R, DE=0.6667";
+        let mut hazards: Vec<(&str, f64)> = Vec::new();
+        for text in self.all("hazard") {
+            let refused = || wrong("hazard", expected, text);
+            let (name, factor) = match text.split_once('=') {
+                None => (text.trim(), 1.0),
+                Some((name, factor)) => {
+                    let factor = factor.trim().parse().ok();
+                    let factor = factor.filter(|f: &f64| f.is_finite() && *f > 0.0);
+                    (name.trim(), factor.ok_or_else(refused)?)
+                }
+            };
+            let is_first = hazards.is_empty();
+            let alike = hazards.iter().any(|(known, _)| *known == name);
+            if name.is_empty() || alike || is_first == text.contains('=') {
+                return Err(refused());
+            }
+            hazards.push((name, factor));
+        }
+        Ok(hazards)
+    }
+
+    /// The code that is asked for, and what it is given besides the model.
+    fn code(&self) -> Result<Option<Code>, AssessmentError> {
+        let texts: Vec<&str> = self.all("code-values").collect();
+        match (self.given("code"), texts.first()) {
+            (Some(name), _) => Ok(Some(Code::named(name)?.with_values(&texts)?)),
+            (None, Some(text)) => Err(wrong("code-values", "`code` beside them", text).into()),
+            (None, None) => Ok(None),
+        }
     }
 
     /// What is taken from ASCE/SEI 7 under a target spectrum of which nobody says after which code it is.
@@ -108,6 +174,16 @@ impl Request {
         &self,
         target: Option<(&str, TargetSpectrum)>,
         analyses: &[Analysis],
+    ) -> Result<(Scaling, String), AssessmentError> {
+        self.scaling_by(target, analyses, None)
+    }
+
+    /// The same by the range of periods of a code; without one by that of ASCE/SEI 7.
+    fn scaling_by(
+        &self,
+        target: Option<(&str, TargetSpectrum)>,
+        analyses: &[Analysis],
+        by: Option<&Code>,
     ) -> Result<(Scaling, String), AssessmentError> {
         let code = self.given("code-spectrum");
         let of_code =
@@ -144,13 +220,18 @@ impl Request {
         if let Some(range_s) = range_s {
             return Ok((Scaling::Target(spectrum, range_s), format!(" scaled to {words}")));
         }
-        let range_s = effective_periods(analyses, &spectrum).ok_or_else(|| {
-            let expected = "the range of periods beside the spectrum, 0.6 s..3.8 s: the model has no \
-                            effective period by hand, of which it would be 0.75 to 1.25";
+        let [least, most] = by.map_or(PERIODS, |code| code.periods);
+        let range_s = effective_periods(analyses, &spectrum, by).ok_or_else(|| {
+            let expected = format!(
+                "the range of periods beside the spectrum, 0.6 s..3.8 s: the model has no effective period by hand, of \
+                 which it would be {least} to {most}"
+            );
             refuse("periods", expected, "nothing")
         })?;
         let [from, to] = range_s.map(|period_s| format!("{period_s:.3}"));
-        let words = format!(" scaled to {words} from {from} s to {to} s (0.75 to 1.25 T_M)");
+        let effective = if by.is_none_or(Code::is_asce) { "T_M" } else { "T_eff" };
+        let words =
+            format!(" scaled to {words} from {from} s to {to} s ({least} to {most} {effective})");
         Ok((Scaling::Target(spectrum, range_s), words))
     }
 
@@ -237,14 +318,78 @@ impl Request {
     }
 }
 
-/// The range in which chapter 17 of ASCE/SEI 7 compares pairs with the spectrum, in s: from 0.75 of the
-/// effective period with the stiffest bound to 1.25 of it with the softest; none where a model has none.
-fn effective_periods(analyses: &[Analysis], spectrum: &TargetSpectrum) -> Option<[f64; 2]> {
-    let of = |analysis: &Analysis| lateral(analysis, spectrum);
+/// The part of the shortest and of the longest effective period between which chapter 17 of ASCE/SEI 7 compares pairs with
+/// the spectrum.
+const PERIODS: [f64; 2] = [0.75, 1.25];
+
+/// The range in which a code, else chapter 17 of ASCE/SEI 7, compares pairs with the spectrum, in s: from a part of the
+/// effective period with the stiffest bound to a part of that with the softest; none where a model has none.
+fn effective_periods(
+    analyses: &[Analysis],
+    spectrum: &TargetSpectrum,
+    by: Option<&Code>,
+) -> Option<[f64; 2]> {
+    let of = |analysis: &Analysis| match by {
+        None => lateral(analysis, spectrum),
+        Some(code) => {
+            let with = |bound: Bound| code.lateral(&bound.of(&analysis.model), spectrum);
+            bounds(analysis).into_iter().map(with).collect()
+        }
+    };
     let all: Option<Vec<LateralForce>> = analyses.iter().flat_map(of).collect();
     let periods_s = || all.iter().flatten().map(|found| found.period_s);
     let (shortest_s, longest_s) = (periods_s().reduce(f64::min)?, periods_s().reduce(f64::max)?);
-    Some([0.75 * shortest_s, 1.25 * longest_s])
+    let [least, most] = by.map_or(PERIODS, |code| code.periods);
+    Some([least * shortest_s, most * longest_s])
+}
+
+/// Property factors with the limits of a code, unless these or qualification tests are stated.
+fn limited(factors: PropertyFactors, code: Option<&Code>) -> PropertyFactors {
+    let of_code = code.filter(|code| !code.is_given("qualification_tests"));
+    let of_code = of_code.and_then(|code| code.limits);
+    PropertyFactors { limits: factors.limits.or(of_code), ..factors }
+}
+
+/// What a code is asked with besides models and runs.
+struct Besides<'a> {
+    code: &'a Code,
+    plan: Option<Plan>,
+    hazard: Option<&'a str>,
+    further: bool,
+}
+
+/// What a code makes of each model and its runs. The hand calculation beside the runs is that of ASCE/SEI 7: under
+/// another code it stands among the values of the code alone.
+fn judgements(
+    histories: &mut Histories,
+    analyses: &[Analysis],
+    scaling: &Scaling,
+    besides: &Besides<'_>,
+) -> Vec<Judgement> {
+    let Besides { code, plan, hazard, further } = besides;
+    let (hazard, further) = (*hazard, *further);
+    let (spectrum, range_s) = match scaling {
+        Scaling::Target(spectrum, range_s) => (Some(spectrum), Some(*range_s)),
+        _ => (None, None),
+    };
+    let of = histories.models.iter().zip(analyses).map(|(histories_of, analysis)| {
+        let judged = Judged {
+            analysis,
+            histories: histories_of,
+            spectrum,
+            range_s,
+            matched: histories.matched.as_ref().map(|(matched, _)| matched),
+            hazard,
+            further,
+            plan: plan.as_ref(),
+        };
+        judge(code, judged)
+    });
+    let judgements = of.collect();
+    if !code.is_asce() {
+        histories.models.iter_mut().for_each(|model| model.lateral.clear());
+    }
+    judgements
 }
 
 /// Two periods in s, `0.6 s..3.8 s`.

@@ -7,6 +7,7 @@ mod allocation;
 mod bidirectional;
 mod cases;
 mod check;
+mod codes;
 mod corners;
 mod demands;
 mod devices;

@@ -162,9 +162,14 @@ def suite(
     code_spectrum: str | None = None,
     periods: str | None = None,
     property_factors: str | None = None,
-    hazard: str | None = None,
+    hazard: str | Sequence[str] | None = None,
     eccentricity: str | None = None,
+    code: str | None = None,
+    code_values: str | Sequence[str] | None = None,
     floor_spectrum: bool = False,
+    project: str | None = None,
+    author: str | None = None,
+    date: str | None = None,
     pairs: str | None = None,
     jobs: int | None = None,
     progress: Progress | None = None,
@@ -190,9 +195,15 @@ def suite(
     property_factors
         Bounds of friction from property modification factors, ``"test = 0.9..1.2, aging = 1..1.3"``.
     hazard
-        What the answer calls this intensity, ``"MCE_R"``.
+        What the answer calls this intensity, ``"MCE_R"``; further intensities beside it have a factor on the first:
+        ``["MCE_R", "DE=0.6667"]``.
     eccentricity
         Plan of the building, for the total displacement of the hand calculation.
+    code, code_values
+        A code whose requirements are judged row by row, ``"asce7-22"``, ``"en1998-1"`` or ``"aashto"``, and what it
+        asks for and no model says, ``"R = 4, I_e = 1.5, S_1 = 0.9"``.
+    project, author, date
+        What the title block of the report says.
     floor_spectrum
         Whether floor spectra are wanted: means and fractiles of the records by place, of pairs RotD100, x and y.
     pairs

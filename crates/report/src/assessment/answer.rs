@@ -4,7 +4,7 @@ use slipstick::assessment::histories::{ChosenHistory, Histories};
 use slipstick::notice::Notice;
 use slipstick::requests::{Answer, Curves, Results};
 use slipstick::response::Response;
-use slipstick::table::Table;
+use slipstick::table::{Column, Table};
 
 use super::design::DesignReport;
 use super::fragility::{FragilityFamily, FragilityReport};
@@ -29,13 +29,23 @@ pub struct Tabled {
 /// An answer laid out.
 #[must_use]
 pub fn sheet(answer: &Answer, display: DisplayUnits) -> Sheet {
-    let Answer { name, model_hash, records, scaled, warnings, found } = answer;
+    let Answer { name, model_hash, records, scaled, warnings, title, found } = answer;
     let names: Vec<String> = records.iter().map(|record| record.name.clone()).collect();
     let sheet = match found {
-        Results::Suite { histories, hazard, factors, plan } => {
+        Results::Suite { histories, hazard, factors, plan, judgements, others } => {
             let (hazard, factors, plan) = (hazard.as_deref(), *factors, *plan);
-            let mut sheet =
-                HistoriesReport { histories, scaled, hazard, factors, plan, display }.sheet();
+            let mut sheet = HistoriesReport {
+                histories,
+                scaled,
+                hazard,
+                factors,
+                plan,
+                judgements,
+                others,
+                is_further: false,
+                display,
+            }
+            .sheet();
             // What was noticed of the request; of its records the histories know more.
             let told =
                 |notice: &&Notice| !sheet.warnings.iter().any(|known| known.kind == notice.kind);
@@ -83,7 +93,8 @@ pub fn sheet(answer: &Answer, display: DisplayUnits) -> Sheet {
     };
     // A suite's own records have the factors of its runs.
     let suite = if sheet.suite.is_empty() { records.clone() } else { sheet.suite };
-    let sheet = Sheet { model_hash: model_hash.clone(), suite, ..sheet };
+    let (model_hash, title) = (model_hash.clone(), title.clone());
+    let sheet = Sheet { model_hash, suite, title, ..sheet };
     let mut sheet = sheet.certified(found.certified());
     Notice::sort(&mut sheet.warnings);
     sheet
@@ -124,13 +135,21 @@ pub fn tables(answer: Answer) -> Vec<Tabled> {
     const BOTH: &[&str] = &["csv", "parquet"];
     let tabled = |name, forms, table| Tabled { name, forms, table };
     match answer.found {
-        Results::Suite { histories, .. } => {
-            let Histories { runs, governing, floor_spectra, profiles, .. } = histories;
-            let mut tables =
-                vec![tabled("runs", &BOTH[..1], runs), tabled("governing", &BOTH[..1], governing)];
-            tables.extend(profiles.map(|table| tabled("profiles", &BOTH[..1], table)));
-            tables.extend(floor_spectra.map(|table| tabled("floor-spectra", BOTH, table)));
-            tables
+        Results::Suite { histories, hazard, others, .. } => {
+            let others = others.into_iter().map(|at| (at.name, at.histories));
+            let first = (hazard.unwrap_or_default(), histories);
+            let all: Vec<(String, Histories)> = core::iter::once(first).chain(others).collect();
+            let of = |name, forms, table: fn(&Histories) -> Option<&Table>| {
+                let tables = all.iter().filter_map(|(hazard, of)| Some((&hazard[..], table(of)?)));
+                at_each(tables.collect()).map(|table| tabled(name, forms, table))
+            };
+            let tables = [
+                of("runs", &BOTH[..1], |of| Some(&of.runs)),
+                of("governing", &BOTH[..1], |of| Some(&of.governing)),
+                of("profiles", &BOTH[..1], |of| of.profiles.as_ref()),
+                of("floor-spectra", BOTH, |of| of.floor_spectra.as_ref()),
+            ];
+            tables.into_iter().flatten().collect()
         }
         Results::Spectrum(run) => {
             vec![tabled("spectrum", BOTH, run.table), tabled("runs", &BOTH[1..], run.rows)]
@@ -153,6 +172,29 @@ pub fn tables(answer: Answer) -> Vec<Tabled> {
             vec![tabled("fragility", BOTH, table)]
         }
     }
+}
+
+/// Tables of the same columns under each other, of several intensities each row with the name of its own; none of none.
+fn at_each(tables: Vec<(&str, &Table)>) -> Option<Table> {
+    let several = tables.len() > 1;
+    let mut all: Option<Table> = None;
+    for (hazard, table) in tables {
+        let mut table = table.clone();
+        if several {
+            let names = vec![hazard.to_owned(); table.rows()];
+            table.columns.insert(0, Column::texts("hazard", names));
+        }
+        match &mut all {
+            None => all = Some(table),
+            Some(all) => {
+                for (column, more) in all.columns.iter_mut().zip(table.columns) {
+                    // Of the same models on the same records all columns are of the same kinds.
+                    let _ = column.cells.append(more.cells);
+                }
+            }
+        }
+    }
+    all
 }
 
 /// What a fragility is told from.

@@ -3,23 +3,26 @@
 mod code;
 mod figures;
 mod floors;
+mod forces;
+mod judged;
 mod profiles;
 
 use serde::Serialize;
 use slipstick::assessment::FailedRun;
-use slipstick::assessment::code::{Plan, PropertyFactors};
+use slipstick::assessment::code::{Judgement, Plan, PropertyFactors};
 use slipstick::assessment::histories::left_out::LeftOut;
 use slipstick::assessment::histories::{Histories, ModelHistories, OnRecord, RECORDS_OF_A_MEAN};
 use slipstick::assessment::suite::{Recorded, condensed};
 use slipstick::input::Bound;
-use slipstick::notice::{Notice, NoticeKind};
+use slipstick::notice::{Notice, NoticeKind, Severity};
+use slipstick::requests::AtHazard;
 use slipstick::response::{DemandColumn, DemandOf};
 use slipstick::study::USUAL_FACTORS;
 use slipstick::table::{self, Column};
 
 use self::code::{LATERAL, LateralFigure};
 use super::pairs;
-use super::sheet::{Sheet, cell, failed, record_table};
+use super::sheet::{Sheet, SheetTable, cell, failed, record_table};
 use crate::display::{DisplayUnits, Quantity, Unit};
 use crate::json::{Members, cell_values, each, pretty};
 use crate::number::compact;
@@ -38,6 +41,12 @@ pub struct HistoriesReport<'a> {
     pub factors: Option<PropertyFactors>,
     /// Plan of the building, for the total displacement.
     pub plan: Option<Plan>,
+    /// What a code makes of each model; none without a code.
+    pub judgements: &'a [Judgement],
+    /// The same at further intensities.
+    pub others: &'a [AtHazard],
+    /// Whether it is itself of a further intensity, beside the first.
+    pub is_further: bool,
     /// Units to show results in.
     pub display: DisplayUnits,
 }
@@ -61,7 +70,12 @@ impl HistoriesReport<'_> {
     pub fn sheet(&self) -> Sheet {
         let models = &self.histories.models;
         let names: Vec<&str> = models.iter().map(|model| model.name.as_str()).collect();
-        let runs: usize = models.iter().map(|model| model.records.len() * model.bounds.len()).sum();
+        let of_models = |models: &[ModelHistories]| -> usize {
+            models.iter().map(|model| model.records.len() * model.bounds.len()).sum()
+        };
+        let runs = of_models(models)
+            + self.others.iter().map(|at| of_models(&at.histories.models)).sum::<usize>();
+        let every = || self.others.iter().map(|at| &at.histories.models).chain([models]).flatten();
         let most = models.iter().max_by_key(|model| model.counted());
         let records =
             most.map_or_else(String::new, |model| match (model.counted(), model.of_pairs()) {
@@ -74,12 +88,12 @@ impl HistoriesReport<'_> {
             true => " in two directions",
             false => "",
         };
-        let broken = models.iter().flat_map(ModelHistories::unconfirmed).count();
+        let broken = every().flat_map(ModelHistories::unconfirmed).count();
         let certificate = match broken {
             0 => "every certificate holds".to_owned(),
             n => format!("{n} certificates do not hold"),
         };
-        let unanswered = models.iter().flat_map(ModelHistories::failures).count();
+        let unanswered = every().flat_map(ModelHistories::failures).count();
         let complete = unanswered == 0 && broken == 0;
         let certificate = match unanswered {
             0 => certificate,
@@ -90,7 +104,8 @@ impl HistoriesReport<'_> {
             name: names.join(", "),
             model_hash: Some(models.iter().map(|m| &m.hash[..]).collect::<Vec<_>>().join(", ")),
             suite: self.recorded(),
-            first: Some(("Governs", self.governing())),
+            first: Some(("Governs", self.at_each(|at| at.governing()).join(". "))),
+            verdicts: self.at_each(|at| at.verdicts()).concat(),
             line: format!(
                 "{runs} runs: {records}{directions}{}{}; {certificate}",
                 self.scaled,
@@ -100,13 +115,79 @@ impl HistoriesReport<'_> {
             failed: broken > 0,
             display: self.display,
             warnings: self.warnings(),
+            first_tables: self.first_tables(),
             tables: self.tables(),
             notes: self.notes(),
+            not_modelled: forces::not_modelled(self.torsion(0).is_some()),
             figures: self.figures(),
+            formulas: self.formulas(),
             method: self.method(),
             json: pretty(&self.json()),
             ..Sheet::default()
         }
+    }
+
+    /// The same at a further intensity, alone.
+    fn at_hazard<'a>(&'a self, at: &'a AtHazard) -> HistoriesReport<'a> {
+        HistoriesReport {
+            histories: &at.histories,
+            hazard: Some(&at.name),
+            judgements: &at.judgements,
+            others: &[],
+            is_further: true,
+            ..self.clone()
+        }
+    }
+
+    /// What is told at each intensity, the first first.
+    fn at_each<T>(&self, of: impl Fn(&HistoriesReport<'_>) -> T) -> Vec<T> {
+        let others = self.others.iter().map(|at| of(&self.at_hazard(at)));
+        core::iter::once(of(self)).chain(others).collect()
+    }
+
+    /// What governs at each intensity, side by side: a row a demand, with the bound that governs.
+    fn side_by_side(&self) -> Vec<SheetTable> {
+        if self.others.is_empty() {
+            return Vec::new();
+        }
+        let of_model = |(place, model): (usize, &ModelHistories)| {
+            let names = self.hazard.into_iter().chain(self.others.iter().map(|at| &at.name[..]));
+            let heads = core::iter::once(String::new()).chain(names.map(str::to_owned)).collect();
+            let mut rows: Vec<Vec<String>> = vec![heads];
+            for columns in self.columns() {
+                let column = columns[place];
+                let unit = self.unit_of(&columns);
+                let shown = |report: &HistoriesReport<'_>, factor: f64| {
+                    let of = &report.histories.models[place];
+                    let friction = |bound: &Bound| match of.bounds.len() {
+                        1 => String::new(),
+                        _ => format!(" ({})", bound.name),
+                    };
+                    of.governs(&column).map_or("—".to_owned(), |(bound, value)| {
+                        format!("{}{}", cell(unit.of(factor * value)), friction(bound))
+                    })
+                };
+                let title = unit.label(&model.names.title(&column));
+                let row = |name: String, factor: f64| {
+                    let cells = self.at_each(|report| shown(report, factor));
+                    core::iter::once(name).chain(cells).collect::<Vec<String>>()
+                };
+                rows.push(row(title, 1.0));
+                if column.name() == SHOWN[0] {
+                    let torsion = self.torsion(place);
+                    rows.extend(torsion.map(|torsion| {
+                        row(format!("  with torsion × {}", cell(torsion)), torsion)
+                    }));
+                    rows.extend(model.gap_m.map(|gap_m| {
+                        let share = 100.0 * unit.in_si * torsion.unwrap_or(1.0) / gap_m;
+                        row("  of the gap (%)".to_owned(), share)
+                    }));
+                }
+            }
+            let heading = format!("{} at each intensity", capital(model.statistic()));
+            (self.of_model(&heading, model), rows)
+        };
+        self.histories.models.iter().enumerate().map(of_model).collect()
     }
 
     /// The demands that have a table, each as the column of every model: those of the block, and the
@@ -158,7 +239,7 @@ impl HistoriesReport<'_> {
     fn governing(&self) -> String {
         let peaks = self.peaks();
         let unit = self.unit_of(&peaks);
-        let of = |model: &ModelHistories| {
+        let of = |(place, model): (usize, &ModelHistories)| {
             let name = if self.histories.models.len() > 1 {
                 format!("{}: ", model.name)
             } else {
@@ -180,9 +261,15 @@ impl HistoriesReport<'_> {
                 1 => String::new(),
                 _ => format!("{} friction, ", bound.name),
             };
-            let gap = model.gap_m.map_or(String::new(), |gap_m| {
-                format!(", {} % of the gap", cell(100.0 * value / gap_m))
+            let total = self.torsion(place).map_or(value, |torsion| torsion * value);
+            let torsion = self.torsion(place).map_or(String::new(), |torsion| {
+                let (total, factor) = (cell(unit.of(total)), cell(torsion));
+                format!(", with torsion × {factor} {total} {}", unit.symbol)
             });
+            let gap = model.gap_m.map_or(String::new(), |gap_m| {
+                format!("{torsion}, {} % of the gap", cell(100.0 * total / gap_m))
+            });
+            let gap = if gap.is_empty() { torsion } else { gap };
             let records = match model.records.as_slice() {
                 [one] => one.record.clone(),
                 _ if model.has_pairs() && model.counted() == 1 => {
@@ -199,7 +286,7 @@ impl HistoriesReport<'_> {
                 unit.symbol
             ))
         };
-        let all: Vec<String> = self.histories.models.iter().filter_map(of).collect();
+        let all: Vec<String> = self.histories.models.iter().enumerate().filter_map(of).collect();
         let hazard = self.hazard.map_or(String::new(), |hazard| format!("{hazard}: "));
         hazard + &all.join("; ")
     }
@@ -314,6 +401,12 @@ impl HistoriesReport<'_> {
         first.unwrap_or_else(|| column.title())
     }
 
+    /// What is read first: what governs at each intensity, what a code requires.
+    fn first_tables(&self) -> Vec<SheetTable> {
+        let judged = self.at_each(|at| at.judged_tables()).concat();
+        self.side_by_side().into_iter().chain(judged).collect()
+    }
+
     /// What was run, what governs beside the hand's calculation, a table a demand, and how pairs were brought
     /// to a spectrum.
     fn tables(&self) -> Vec<(String, Vec<Vec<String>>)> {
@@ -328,9 +421,21 @@ impl HistoriesReport<'_> {
         let records = records.map(|rows| ("Records".to_owned(), rows));
         let capacity = self.histories.models.iter().filter_map(|model| self.capacity(model));
         let factors = self.factors.iter().map(code::factor_table);
-        let governs = capacity.chain(factors);
+        let forces = self.histories.models.iter().map(|model| self.force_table(model));
+        let of_others = self.others.iter().flat_map(|at| {
+            let report = self.at_hazard(at);
+            let capacity = at.histories.models.iter().filter_map(|model| {
+                report
+                    .capacity(model)
+                    .map(|(heading, rows)| (format!("{heading}{}", report.at()), rows))
+            });
+            let forces = at.histories.models.iter().map(|model| report.force_table(model));
+            capacity.chain(forces).collect::<Vec<_>>()
+        });
+        let governs = capacity.chain(forces).chain(of_others).chain(factors);
         let hidden = lateral.chain(alone);
-        let all = records.into_iter().chain(governs).chain(hidden).chain(demands);
+        // What answers stands first.
+        let all = governs.chain(records).chain(hidden).chain(demands);
         all.chain(over_height).chain(of_pairs).collect()
     }
 
@@ -403,6 +508,7 @@ impl HistoriesReport<'_> {
         for model in &self.histories.models {
             method.extend(model.left_out.as_ref().map(|left_out| apart(&model.name, left_out)));
         }
+        method.extend(self.of_codes());
         if self.factors.is_some() {
             method.push(
                 "The bounds of friction are products of property modification factors, of the least and of \
@@ -485,6 +591,14 @@ impl HistoriesReport<'_> {
             .chain(of_suite)
             .chain(of_records);
         let mut all: Vec<Notice> = all.collect();
+        for at in self.others {
+            let told = self.at_hazard(at).warnings().into_iter();
+            let severe = told.filter(|notice| notice.severity() == Severity::Severe);
+            all.extend(severe.map(|notice| Notice {
+                message: format!("at {}: {}", at.name, notice.message),
+                ..notice
+            }));
+        }
         Notice::sort(&mut all);
         all
     }
@@ -512,11 +626,32 @@ impl HistoriesReport<'_> {
                     passes_m: found.passes.map(|(_, reach_m)| reach_m),
                 }
             }),
+            #[serde(flatten)] further: (!self.others.is_empty()).then(|| {
+                view! { hazards: each(self.others, |at| view! {
+                    name: &at.name[..],
+                    factor: at.factor,
+                    runs: columns(&at.histories.runs),
+                    governing: columns(&at.histories.governing),
+                    code: each(at.histories.models.iter().zip(&at.judgements), |(model, of)| {
+                        judged::json(&model.name, of)
+                    }),
+                }) }
+            }),
+            #[serde(flatten)] requirements: (!self.judgements.is_empty()).then(|| {
+                let of_models = models.iter().zip(self.judgements);
+                view! { code: each(of_models, |(model, of)| judged::json(&model.name, of)) }
+            }),
             #[serde(flatten)] profiles: self.profile_json().map(|profiles| view! { profiles }),
             #[serde(flatten)] floor_spectrum:
                 self.floor_json().map(|floor_spectrum| view! { floor_spectrum }),
         }
     }
+}
+
+/// The same with a capital first.
+fn capital(words: &str) -> String {
+    let (first, rest) = words.split_at(words.chars().next().map_or(0, char::len_utf8));
+    format!("{}{rest}", first.to_uppercase())
 }
 
 /// The records of a model, each with its name and how many before it share that: two records of one name are two.

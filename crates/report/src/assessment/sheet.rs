@@ -13,10 +13,10 @@ use crate::display::DisplayUnits;
 use crate::figures::Drawn;
 use crate::html::{Frame, document, figure_list, inputs, name_table, number_table, warning_list};
 use crate::json::{joined, pretty};
-use crate::laboratory::text::{aligned, field};
+use crate::laboratory::text::{aligned, field, wrapped};
 use crate::markup::Markup;
 use crate::markup::shortened;
-use crate::report::Provenance;
+use crate::report::{FileNote, Provenance};
 use crate::summary::keys::{certified_keys, listed, suite};
 use crate::view;
 
@@ -38,6 +38,8 @@ pub struct Sheet {
     pub suite: Vec<Recorded>,
     /// What stands before all else, where a reader must know it first: a name and a sentence.
     pub first: Option<(&'static str, String)>,
+    /// What is said of it by the rules of others, a name and a sentence each.
+    pub verdicts: Vec<(&'static str, String)>,
     /// What was done, in a line.
     pub line: String,
     /// The answer in sentences, the shortest first: what the page begins with.
@@ -50,8 +52,12 @@ pub struct Sheet {
     pub of_runs: Vec<Option<&'static str>>,
     /// Whether the answer must not be used.
     pub failed: bool,
+    /// Tables that stand before the figures, where some do.
+    pub first_tables: Vec<SheetTable>,
     /// The tables, the one that answers first.
     pub tables: Vec<SheetTable>,
+    /// A heading and lines in small print that the page alone shows, at its end.
+    pub formulas: Option<(String, Vec<String>)>,
     /// Names and values that the page alone shows, at its end; without heads.
     pub appendix: Vec<SheetTable>,
     /// Keys of a model, with what stands over them.
@@ -62,6 +68,10 @@ pub struct Sheet {
     pub figures: Vec<Drawn>,
     /// How it was found and what that leaves out, a sentence or two each.
     pub method: Vec<String>,
+    /// What is not modelled, a sentence or two each.
+    pub not_modelled: Vec<String>,
+    /// What the title block has besides version and hashes: `project`, `author`, `date`.
+    pub title: Vec<(&'static str, String)>,
     /// Sections that the page has besides, and what stands first in its appendix.
     pub(crate) laid_out: [Markup; 2],
     /// How many of its runs were certified; none where that is not known.
@@ -96,7 +106,7 @@ impl Sheet {
     #[must_use]
     pub fn to_text(&self) -> String {
         let mut text = String::new();
-        if let Some((name, sentence)) = &self.first {
+        for (name, sentence) in self.first.iter().chain(&self.verdicts) {
             text.push_str(&field(name, sentence));
         }
         let hash = self.model_hash.iter().map(|hash| format!("  (model {hash})"));
@@ -106,9 +116,9 @@ impl Sheet {
         if let Some(certified) = &self.certified {
             text.push_str(&field("Checked", &format!("{certified}.")));
         }
-        for (heading, rows) in &self.tables {
+        for (heading, rows) in self.first_tables.iter().chain(&self.tables) {
             text.push_str(&format!("\n{heading}\n"));
-            text.push_str(&aligned(rows));
+            text.push_str(&aligned(&wrapped(rows)));
         }
         if let Some((heading, keys)) = &self.keys {
             text.push_str(&format!("\n{heading}\n{keys}"));
@@ -150,30 +160,64 @@ impl Sheet {
         if self.suite.iter().all(|on| on.notices.is_empty()) {
             return;
         }
-        out.raw("<h3>What was noticed of each record</h3>\n<ul>\n");
+        // One line a kind, with all records that gave it.
+        let mut kinds: Vec<(&Notice, Vec<&str>)> = Vec::new();
         for on in &self.suite {
             for notice in &on.notices {
-                let label = notice.severity().name();
-                out.raw("<li>").element("strong", &on.name).text(format!(
-                    ": {label}, {}: {}",
-                    notice.kind.words(),
-                    self.display.sentence(&notice.message)
-                ));
-                out.raw("</li>\n");
+                match kinds.iter_mut().find(|(known, _)| known.kind == notice.kind) {
+                    Some((_, names)) if names.last() == Some(&&on.name[..]) => {}
+                    Some((_, names)) => names.push(&on.name),
+                    None => kinds.push((notice, vec![&on.name])),
+                }
             }
+        }
+        out.raw("<h3>What was noticed of the records</h3>\n<ul>\n");
+        for (notice, names) in kinds {
+            let label = notice.severity().name();
+            out.raw("<li>").element("strong", notice.kind.words()).text(format!(
+                " ({label}): {}. The first: {}",
+                names.join(", "),
+                self.display.sentence(&notice.message)
+            ));
+            out.raw("</li>\n");
         }
         out.raw("</ul>\n");
     }
 
+    /// Project, author and date as they are given, then what made the page: names and values; nothing where none is given.
+    fn title_block(&self, provenance: &Provenance) -> Vec<(&'static str, String)> {
+        if self.title.is_empty() {
+            return Vec::new();
+        }
+        let named = |(name, text): &(&'static str, String)| {
+            let name = match *name {
+                "project" => "Project",
+                "author" => "Author",
+                "date" => "Date",
+                other => other,
+            };
+            (name, text.clone())
+        };
+        let version = ("Program", format!("Slipstick {VERSION}"));
+        let model = self.model_hash.iter().map(|hash| ("Hash of the model", hash.clone()));
+        let file = |file: &FileNote<'_>| {
+            let hash: String = file.sha256.chars().take(16).collect();
+            ("SHA-256 of its file", format!("{} {hash}…", file.path))
+        };
+        let models = provenance.files.iter().filter(|file| file.description == "model").map(file);
+        self.title.iter().map(named).chain([version]).chain(model).chain(models).collect()
+    }
+
     /// The first figure and table, which answer, and the rest, which supports them.
     fn answers(&self, out: &mut Markup) {
-        let Self { figures, tables, notes, keys, .. } = self;
+        let Self { figures, first_tables, tables, notes, keys, .. } = self;
         if figures.is_empty() && tables.is_empty() && notes.is_empty() && keys.is_none() {
             return;
         }
         let (figure, figures) = figures.split_at(figures.len().min(1));
         let (table, tables) = tables.split_at(tables.len().min(1));
         out.raw("<section>\n");
+        table_list(out, first_tables);
         figure_list(out, figure, 1);
         table_list(out, table);
         for note in notes {
@@ -191,7 +235,9 @@ impl Sheet {
     #[must_use]
     pub fn to_html(&self, provenance: &Provenance) -> String {
         let mut body = Markup::new();
-        let first = self.first.iter().map(|(name, sentence)| format!("{name}: {sentence}"));
+        // What others require stands before what was found.
+        let first = self.verdicts.iter().chain(&self.first);
+        let first = first.map(|(name, sentence)| format!("{name}: {sentence}"));
         let failed = if self.failed { " failed" } else { "" };
         body.raw("<section class=\"verdict").raw(failed).raw("\">\n");
         for (i, sentence) in self.verdict.iter().cloned().chain(first).enumerate() {
@@ -214,6 +260,13 @@ impl Sheet {
             }
             body.raw("</ul>\n</section>\n");
         }
+        if !self.not_modelled.is_empty() {
+            body.raw("<section>\n<h2>What is not modelled</h2>\n<ul>\n");
+            for line in &self.not_modelled {
+                body.element("li", line).raw("\n");
+            }
+            body.raw("</ul>\n</section>\n");
+        }
         let [sections, appendix] = &self.laid_out;
         body.append(sections);
         body.raw("<section class=\"appendix\">\n<h2>Appendix</h2>\n").append(appendix);
@@ -224,6 +277,13 @@ impl Sheet {
             });
             name_table(&mut body, heading, &pairs.collect::<Vec<_>>());
         }
+        if let Some((heading, lines)) = &self.formulas {
+            body.element("h3", heading).raw("\n<ul class=\"formulas\">\n");
+            lines.iter().for_each(|line| {
+                body.element("li", line).raw("\n");
+            });
+            body.raw("</ul>\n");
+        }
         self.noticed(&mut body);
         inputs::provenance(&mut body, provenance);
         body.raw("</section>\n");
@@ -231,6 +291,7 @@ impl Sheet {
         document(&Frame {
             kind: self.kind,
             name: &self.name,
+            title: &self.title_block(provenance),
             line: &format!("Slipstick {VERSION}{}. {}", hash.collect::<String>(), self.line),
             command_line: provenance.command_line,
             body: &body,
@@ -269,11 +330,34 @@ pub(crate) fn record_table(records: &[Recorded]) -> Option<Vec<Vec<String>>> {
 }
 
 fn table_list(out: &mut Markup, tables: &[SheetTable]) {
-    for (heading, rows) in tables {
-        out.element("h3", heading).raw("\n");
-        number_table(out, rows);
+    // Narrow tables after each other stand beside each other in print.
+    for run in tables.chunk_by(|a, b| is_narrow(&a.1) && is_narrow(&b.1)) {
+        let beside = run.len() > 1;
+        out.raw(if beside { "<div class=\"tables\">\n" } else { "" });
+        for (heading, rows) in run {
+            out.raw(if beside { "<div>\n" } else { "" });
+            out.element("h3", heading).raw("\n");
+            number_table(out, rows);
+            out.raw(if beside { "</div>\n" } else { "" });
+        }
+        out.raw(if beside { "</div>\n" } else { "" });
     }
 }
+
+/// Whether a table is of few columns of numbers under short names, and of rows that one column of a page holds.
+fn is_narrow(rows: &[Vec<String>]) -> bool {
+    let short = |row: &Vec<String>| {
+        let width = |(i, cell): (usize, &String)| {
+            cell.chars().count() <= if i == 0 { MOST_NAME } else { MOST_NUMBER }
+        };
+        row.len() <= 5 && row.iter().enumerate().all(width)
+    };
+    rows.len() <= 40 && rows.iter().all(short)
+}
+
+/// Characters of names and of numbers in tables that stand beside each other.
+const MOST_NAME: usize = 40;
+const MOST_NUMBER: usize = 12;
 
 /// A number of a table: four digits, or a dash where there is none.
 pub(crate) fn cell(value: f64) -> String {

@@ -51,6 +51,37 @@ pub fn aligned(rows: &[Vec<String>]) -> String {
     clean(&text)
 }
 
+/// The same rows, those with cells of many words as several under each other.
+pub fn wrapped(rows: &[Vec<String>]) -> Vec<Vec<String>> {
+    const MOST: usize = 46;
+    let lines = |cell: &String| {
+        let mut lines = vec![String::new()];
+        for word in cell.split(' ') {
+            let line = lines.last().map_or(0, |line| line.chars().count());
+            match lines.last_mut() {
+                Some(last) if line == 0 => last.push_str(word),
+                Some(last) if line + 1 + word.chars().count() <= MOST => {
+                    last.push(' ');
+                    last.push_str(word);
+                }
+                _ => lines.push(format!("  {word}")),
+            }
+        }
+        lines
+    };
+    let split = |row: &Vec<String>| {
+        if row.iter().all(|cell| cell.chars().count() <= MOST) {
+            return vec![row.clone()];
+        }
+        let cells: Vec<Vec<String>> = row.iter().map(lines).collect();
+        let most = cells.iter().map(Vec::len).max().unwrap_or(0);
+        let line =
+            |i: usize| cells.iter().map(move |cell| cell.get(i).cloned().unwrap_or_default());
+        (0..most).map(|i| line(i).collect()).collect()
+    };
+    rows.iter().flat_map(split).collect()
+}
+
 /// Lines of cells, each column as wide as its widest; those that `is_left` names left, the others right.
 pub fn padded(rows: &[Vec<String>], is_left: impl Fn(usize) -> bool) -> String {
     let width = |column: usize| {

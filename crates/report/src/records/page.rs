@@ -25,6 +25,7 @@ pub fn page(
     document(&Frame {
         kind: "Ground motion",
         name: if one_file { first } else { "Ground motions" },
+        title: &[],
         line: &format!("Slipstick {VERSION}"),
         command_line: command,
         body: &body,

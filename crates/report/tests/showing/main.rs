@@ -4,6 +4,7 @@
 
 mod figures;
 mod page;
+mod reviewer;
 mod suite;
 mod summary;
 mod support;

@@ -39,7 +39,15 @@ fn sheet(histories: Histories, suite: &Suite) -> Sheet {
         records: suite.recorded(),
         scaled: " scaled to PGA = 3 m/s²".to_owned(),
         warnings: Vec::new(),
-        found: Results::Suite { histories, hazard: None, factors: None, plan: None },
+        title: Vec::new(),
+        found: Results::Suite {
+            histories,
+            hazard: None,
+            factors: None,
+            plan: None,
+            judgements: Vec::new(),
+            others: Vec::new(),
+        },
     };
     answer::sheet(&answer, DisplayUnits::Si)
 }
@@ -55,10 +63,10 @@ fn a_run_that_is_not_confirmed_leaves_the_mean() {
     let mut wrong = right.clone();
     let broken = &mut wrong.models[0].records[3].runs[0];
     let demand = "demands error of peak_sliding_displacement_m";
-    let CertifiedRun { mut demands, floor_spectra, .. } = broken.clone().expect("a run");
+    let CertifiedRun { mut demands, axes, floor_spectra, .. } = broken.clone().expect("a run");
     demands.peak_sliding_displacement_m *= 100.0;
     let (defect, largest) = (Some(demand.to_owned()), Some((demand.to_owned(), 0.99)));
-    *broken = Ok(CertifiedRun { demands, defect, largest, floor_spectra });
+    *broken = Ok(CertifiedRun { demands, axes, defect, largest, floor_spectra });
     let sizes = right.models[0].sizes(&peak, 0);
     let left: Vec<f64> = (0..9).filter(|i| *i != 3).map(|i| sizes[i]).collect();
     let mean = left.iter().sum::<f64>() / 8.0;

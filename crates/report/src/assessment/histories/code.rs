@@ -86,6 +86,8 @@ struct Capacity {
     capacity: Option<f64>,
     /// The demand that says of a run whether it goes beyond, and from where on.
     beyond: (DemandColumn, f64),
+    /// What the demand is multiplied by before it is compared: torsion.
+    factor: f64,
 }
 
 impl HistoriesReport<'_> {
@@ -94,15 +96,17 @@ impl HistoriesReport<'_> {
     pub(super) fn capacity(&self, model: &ModelHistories) -> Option<SheetTable> {
         let statistic = format!("Demand, {}", model.statistic());
         let heads = ["", &statistic, "Friction", "Capacity", "Used (%)", "Runs beyond"];
+        let place = self.histories.models.iter().position(|other| core::ptr::eq(other, model));
+        let torsion = place.and_then(|place| self.torsion(place));
         let rows: Vec<Vec<String>> =
-            capacities(model).iter().map(|of| self.capacity_row(model, of)).collect();
+            capacities(model, torsion).iter().map(|of| self.capacity_row(model, of)).collect();
         let rows = core::iter::once(heads.map(str::to_owned).to_vec()).chain(rows);
         let rows: Vec<Vec<String>> = rows.collect();
         (rows.len() > 1).then(|| (self.of_model("Demand and capacity", model), rows))
     }
 
     fn capacity_row(&self, model: &ModelHistories, of: &Capacity) -> Vec<String> {
-        let Capacity { name, demand, capacity, beyond: (counted, limit) } = of;
+        let Capacity { name, demand, capacity, beyond: (counted, limit), factor } = of;
         let runs = |column: &DemandColumn| -> Vec<(usize, f64)> {
             let of = |bound| model.sizes(column, bound).into_iter().map(move |size| (bound, size));
             (0..model.bounds.len()).flat_map(of).filter(|(_, size)| !size.is_nan()).collect()
@@ -113,10 +117,15 @@ impl HistoriesReport<'_> {
             None => largest().map(|(bound, value)| (model.bounds[bound].name, value)),
         };
         let (bound, value) = governs.unwrap_or(("—", f64::NAN));
+        let value = factor * value;
         let capacity = capacity.unwrap_or(f64::NAN);
-        let unit = self.display.unit(demand.dimension().into(), value.max(capacity));
+        // Sliding displacements in the unit of the headline.
+        let unit = match demand.name() == SHOWN[0] {
+            true => self.unit_of(&self.peaks()),
+            false => self.display.unit(demand.dimension().into(), value.max(capacity)),
+        };
         let counted = runs(counted);
-        let over = counted.iter().filter(|(_, size)| size > limit).count();
+        let over = counted.iter().filter(|(_, size)| factor * size > *limit).count();
         vec![
             unit.label(name),
             cell(unit.of(value)),
@@ -212,6 +221,8 @@ impl HistoriesReport<'_> {
             Quantity::Length => length,
             other => self.display.unit(other, stiffest),
         };
+        let place = self.histories.models.iter().position(|other| core::ptr::eq(other, model));
+        let torsion = place.and_then(|place| self.torsion(place));
         let total = self.total_over_displacement();
         let peak = model.shape().find(SHOWN[0])?.1;
         let runs = |bound: usize| model.governing(&peak, bound);
@@ -249,24 +260,32 @@ impl HistoriesReport<'_> {
         }));
         let of_runs = length.label(&format!("Runs, {}", model.statistic()));
         rows.push(row(of_runs, &|_, bound| length.of(runs(bound))));
+        rows.extend(torsion.map(|torsion| {
+            let name = length.label(&format!("  with torsion × {}", cell(torsion)));
+            row(name, &|_, bound| length.of(torsion * runs(bound)))
+        }));
         rows.push(row("  over D_M".to_owned(), &|found, bound| runs(bound) / found.displacement_m));
         let heading = format!("Equivalent lateral force{} beside the runs", self.at());
         Some((self.of_model(&heading, model), rows))
     }
 }
 
-/// What a model can take: its gap, the travel of its surfaces, its stop, its contents.
-fn capacities(model: &ModelHistories) -> Vec<Capacity> {
+/// What a model can take: its gap, to which torsion brings it nearer, the travel of its surfaces, its stop, its contents.
+fn capacities(model: &ModelHistories, torsion: Option<f64>) -> Vec<Capacity> {
     let shape = model.shape();
     let of = |name: &str| Some(shape.find(name)?.1);
     let mut all = Vec::new();
     let mut add = |name: String, demand: &str, capacity, beyond: Option<DemandColumn>, limit| {
         if let (Some(demand), Some(beyond)) = (of(demand), beyond) {
-            all.push(Capacity { name, demand, capacity, beyond: (beyond, limit) });
+            let factor = 1.0;
+            all.push(Capacity { name, demand, capacity, beyond: (beyond, limit), factor });
         }
     };
     if let Some(gap_m) = model.gap_m {
-        add("Gap".to_owned(), SHOWN[0], model.gap_m, of(SHOWN[0]), gap_m);
+        let name = torsion.map_or("Gap".to_owned(), |torsion| {
+            format!("Gap, demand with torsion × {}", cell(torsion))
+        });
+        add(name, SHOWN[0], model.gap_m, of(SHOWN[0]), gap_m);
     }
     for (i, travel_m) in model.travels_m.iter().enumerate().filter(|(_, travel)| travel.is_some()) {
         let key = |key: &str| format!("surface{}_{key}", i + 1);
@@ -285,6 +304,9 @@ fn capacities(model: &ModelHistories) -> Vec<Capacity> {
     for part in 1..=shape.contents {
         let demand = format!("contents{part}_{}", SHOWN[0]);
         add(format!("Contents {part} slide: farthest"), &demand, None, of(&demand), 0.0);
+    }
+    if let (Some(_), Some(torsion), Some(gap)) = (model.gap_m, torsion, all.first_mut()) {
+        gap.factor = torsion;
     }
     all
 }

@@ -3,7 +3,7 @@
 use slipstick::assessment::histories::ModelHistories;
 use slipstick::response::DemandColumn;
 
-use super::HistoriesReport;
+use super::{HistoriesReport, capital};
 use crate::assessment::lines::{GROUPS, RECORD, line, over_x, panel, stacked};
 use crate::assessment::pairs;
 use crate::display::Unit;
@@ -16,7 +16,10 @@ impl HistoriesReport<'_> {
         let models = &self.histories.models;
         let peaks = self.peaks();
         let unit = self.unit_of(&peaks);
-        let label = unit.label("Sliding displacement");
+        // Of two directions the size stands for both, which is never below 0.
+        let in_plane = models.iter().all(ModelHistories::is_in_plane);
+        let label =
+            unit.label(if in_plane { "Sliding displacement |s|" } else { "Sliding displacement" });
         let end_s = models.iter().flat_map(|model| &model.records);
         let end_s = end_s.filter_map(|on| on.sliding[0].last()).fold(0.0, |a: f64, b| a.max(*b));
         let all = models.iter().flat_map(|model| &model.records);
@@ -33,8 +36,11 @@ impl HistoriesReport<'_> {
             .iter()
             .flat_map(|model| model.gap_m.into_iter().chain(model.stop_m.into_iter().flatten()));
         let gaps = gaps.map(|gap_m| unit.of(gap_m));
-        let y =
-            Axis::symmetric(label, all.into_iter().chain(gaps.filter(|gap| *gap < 2.0 * largest)));
+        let values = all.into_iter().chain(gaps.filter(|gap| *gap < 2.0 * largest));
+        let y = match in_plane {
+            true => Axis::from_zero(label, values.collect::<Vec<f64>>()),
+            false => Axis::symmetric(label, values),
+        };
         let panels = models.iter().map(|model| self.history_panel(model, &y, end_s, &unit));
         let caption = if models.iter().any(|model| model.records.len() > 1) {
             "Sliding displacement: every record with nominal friction thin; bold the largest with the bound of \
@@ -82,7 +88,7 @@ impl HistoriesReport<'_> {
         let [ahead, behind] = model.stop_m;
         let of_stop = ahead.map(|stop_m| limit(stop_m, "stop"));
         let of_stop = of_stop.into_iter().chain(behind.map(|stop_m| limit(-stop_m, "")));
-        let near = |limit: &Limit| limit.value.abs() < y.max;
+        let near = |limit: &Limit| y.min < limit.value && limit.value < y.max;
         let note = if self.histories.models.len() > 1 { model.name.clone() } else { String::new() };
         Panel {
             limits: of_gap.chain(of_stop).filter(near).collect(),
@@ -112,25 +118,30 @@ impl HistoriesReport<'_> {
                     points.push([*size, k as f64 / sizes.len() as f64]);
                     points.push([*size, (k + 1) as f64 / sizes.len() as f64]);
                 }
-                let nominal = bound.name == "nominal";
-                let style = if nominal { *style } else { Style { width: 0.7, ..*style } };
-                let label = match (nominal, self.histories.models.len()) {
-                    (true, 1) => "nominal friction".to_owned(),
-                    (true, _) => model.name.clone(),
-                    _ => String::new(),
+                let of_bound = GROUPS[i % GROUPS.len()];
+                let several = model.bounds.len() > 1;
+                // Of one model a style a bound; of several the colour is the model's, the dashes are the bound's.
+                let (style, label) = match self.histories.models.len() {
+                    1 => (of_bound, format!("{} friction", bound.name)),
+                    _ if several => (
+                        Style { dashes: of_bound.dashes, ..*style },
+                        format!("{}, {}", model.name, bound.name),
+                    ),
+                    _ => (*style, model.name.clone()),
                 };
                 series.push(line(label, style, points));
             }
         }
-        let bounds = if self.histories.models.iter().any(|model| model.bounds.len() > 1) {
-            " Thin: lower- and upper-bound friction."
-        } else {
-            ""
-        };
         let x = Axis::from_zero(unit.label(&column.title()), largest);
         let y = Axis::linear("Share of the records", 0.0, 1.0);
+        let governs = self.histories.models.iter().filter_map(|model| {
+            let (bound, _) = model.governs(column).filter(|_| model.bounds.len() > 1)?;
+            let of_model = self.of_model("", model);
+            Some(format!(" {} friction governs{of_model}.", capital(bound.name)))
+        });
         let caption = format!(
-            "Share of the records whose peak sliding displacement is at most a value.{bounds}"
+            "Share of the records whose peak sliding displacement is at most a value.{}",
+            governs.collect::<String>()
         );
         stacked("shares", "Peaks over the suite", caption, vec![panel(x, y, 190.0, series)])
     }

@@ -240,11 +240,23 @@ impl Profiles<'_> {
         for ((bound, named), style) in model.bounds.iter().enumerate().zip(GROUPS) {
             let label = match model.bounds.len() {
                 1 => model.statistic().to_owned(),
-                _ => named.name.to_owned(),
+                _ => format!("{} friction", named.name),
             };
             series.push(line(label, style, self.points(|place| self.governing(bound, place))));
         }
         series
+    }
+
+    /// The names of levels at the left of a panel whose axis has their heights, where they do not crowd it.
+    fn level_names(&self) -> Vec<PlotSeries> {
+        let crowded = self.levels() >= MANY_LEVELS || self.model.levels_m.is_none();
+        let named = (0..self.levels()).filter(|_| !crowded).map(|level| PlotSeries {
+            label: shortened(&place_name(&self.model.names, level + 1), 16),
+            style: Style::MAIN,
+            shape: Shape::Named,
+            points: vec![[0.0, self.height(level)]],
+        });
+        named.collect()
     }
 
     fn panel(&self, is_first: bool) -> Panel {
@@ -254,6 +266,9 @@ impl Profiles<'_> {
         }
         let values = series.iter().flat_map(|series| &series.points).map(|point| point[0]);
         let x = Axis::from_zero(self.unit.label(&self.title()), values.collect::<Vec<_>>());
+        if is_first {
+            series.extend(self.level_names());
+        }
         panel(x, self.axis(is_first), 260.0, series)
     }
 }
