@@ -2,7 +2,7 @@
 
 use crate::error::{InputError, RecordError, similar};
 use crate::input::{Channel, ColumnRef, MappedColumn, Mapping, Zero};
-use crate::notice::Notice;
+use crate::notice::{Notice, NoticeKind};
 use crate::numerics::fractile::upper_median;
 use crate::record::{self, Column, Columns, Sampling, bracket};
 use crate::units::{Dimension, Unit};
@@ -104,7 +104,7 @@ impl Measured {
                 let expected = format!("one column of {}, or a mapping", channel.name());
                 return Err(columns.error(0, index + 1, expected, column.name.clone()).into());
             }
-            let values = column.values.iter().map(|value| unit.to_si(*value)).collect();
+            let values = columns.numbers(index)?.iter().map(|value| unit.to_si(*value)).collect();
             if channel == Channel::Time {
                 time = Some((index, values));
                 continue;
@@ -115,7 +115,11 @@ impl Measured {
             found.push((index, MeasuredSeries { channel, origin, times_s, values, zero_known }));
         }
         let names = columns.names();
-        let (times_s, dt_s, warnings) = clock(&columns, mapping, time)?;
+        let (times_s, dt_s, mut warnings) = clock(&columns, mapping, time)?;
+        warnings.extend(columns.texts().map(|column| {
+            let message = format!("the column \"{}\" holds no numbers: left out", column.name);
+            Notice::new(NoticeKind::ColumnSkipped, message)
+        }));
         found.sort_by_key(|(column, _)| *column);
         let series = found.into_iter().map(|(_, mut series)| {
             let offset_s = mapping.get(series.channel).map_or(0.0, |entry| entry.offset_s);
@@ -231,9 +235,9 @@ fn mapped(
     entry: &MappedColumn,
     column: usize,
     minus: Option<usize>,
-) -> Result<MeasuredSeries, InputError> {
+) -> Result<MeasuredSeries, MeasuredError> {
     let dimension = entry.channel.dimension();
-    let in_si = |index: usize| -> Result<(Vec<f64>, &'static Unit), InputError> {
+    let in_si = |index: usize| -> Result<(Vec<f64>, &'static Unit), MeasuredError> {
         let column = &columns.columns[index];
         let stated = stated_unit(&column.name, dimension);
         let unit = match (entry.unit, stated) {
@@ -243,7 +247,8 @@ fn mapped(
                     column.name,
                     stated.name()
                 );
-                return Err(mapping.error_at(entry, expected, format!("\"{}\"", given.name())));
+                let found = format!("\"{}\"", given.name());
+                return Err(mapping.error_at(entry, expected, found).into());
             }
             (None, Stated::Other(other)) => {
                 let expected = format!(
@@ -251,7 +256,8 @@ fn mapped(
                     dimension.name(),
                     dimension.si_unit()
                 );
-                return Err(mapping.error_at(entry, expected, format!("the unit \"{other}\"")));
+                let found = format!("the unit \"{other}\"");
+                return Err(mapping.error_at(entry, expected, found).into());
             }
             (Some(given), _) => given,
             (None, Stated::Unit(stated)) => stated,
@@ -261,10 +267,10 @@ fn mapped(
                     column.name,
                     dimension.si_unit()
                 );
-                return Err(mapping.error_at(entry, expected, "none".to_owned()));
+                return Err(mapping.error_at(entry, expected, "none".to_owned()).into());
             }
         };
-        Ok((column.values.iter().map(|value| unit.to_si(*value)).collect(), unit))
+        Ok((columns.numbers(index)?.iter().map(|value| unit.to_si(*value)).collect(), unit))
     };
     let (mut values, unit) = in_si(column)?;
     let name = &columns.columns[column].name;
