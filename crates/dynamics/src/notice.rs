@@ -241,6 +241,10 @@ kinds! {
     NotClearOfZero "not_clear_of_zero" Warning,
     /// A sensor has an offset.
     SensorOffset "sensor_offset" Warning,
+    /// Gain, clock or drift of a sensor is clear of what it is taken for, and was fitted with the rest.
+    SensorsDiffer "sensors_differ" Warning,
+    /// What a fitted model leaves is no noise: above the stated one, or with a memory that noise does not have.
+    ModelMisfit "model_misfit" Severe,
     /// A measured channel has the other sign.
     SignSuspect "sign_suspect" Severe,
     /// The static friction was taken as large as the kinetic one.

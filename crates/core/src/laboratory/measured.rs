@@ -33,6 +33,8 @@ pub struct Measured {
     pub series: Vec<MeasuredSeries>,
     /// What the reader of a result must know.
     pub warnings: Vec<Notice>,
+    /// Whether the mapping says that all sensors are right as measured.
+    pub zero_as_measured: bool,
     /// Names of the file's columns, for messages.
     names: String,
 }
@@ -75,6 +77,7 @@ impl Measured {
         let mut found: Vec<(usize, MeasuredSeries)> = Vec::new();
         let mut taken = vec![false; columns.columns.len()];
         let mut time = None;
+        let mut has_unit_of_time = true;
         for entry in &mapping.columns {
             let column = find(&columns, mapping, entry, &entry.column)?;
             taken[column] = true;
@@ -106,6 +109,8 @@ impl Measured {
             }
             let values = columns.numbers(index)?.iter().map(|value| unit.to_si(*value)).collect();
             if channel == Channel::Time {
+                let stated = stated_unit(&column.name, Dimension::Time);
+                has_unit_of_time = !matches!(stated, Stated::None);
                 time = Some((index, values));
                 continue;
             }
@@ -146,7 +151,9 @@ impl Measured {
             }
         }
         let source_name = columns.source_name.clone();
-        Ok(Self { source_name, dt_s, series, warnings, names })
+        let zero_as_measured = mapping.zero == Zero::AsMeasured;
+        warnings.extend(doubt_of_seconds(has_unit_of_time, &times_s));
+        Ok(Self { source_name, dt_s, series, warnings, zero_as_measured, names })
     }
 
     /// Number of samples of the longest quantity.
@@ -427,6 +434,21 @@ fn clock(
     })
 }
 
+/// The doubt about times without a unit whose steps are whole and long: milliseconds look so.
+fn doubt_of_seconds(has_unit: bool, times_s: &[f64]) -> Option<Notice> {
+    /// Steps in s from which on times without a unit are doubted.
+    const LONG_STEP_S: f64 = 0.5;
+    let step_s = upper_median(times_s.windows(2).map(|t| t[1] - t[0]))?;
+    let is_whole = times_s.iter().all(|t| t.fract() == 0.0);
+    (!has_unit && step_s >= LONG_STEP_S && is_whole).then(|| {
+        let message = format!(
+            "the samples are {step_s} s apart, if the times, which state no unit, are seconds; of milliseconds \
+             say so with the mapping \"time=COLUMN [ms]\""
+        );
+        Notice::new(NoticeKind::LongStep, message)
+    })
+}
+
 /// The row after the first gap, and the usual step: where nine of ten steps agree to a hundredth
 /// (or to the last decimal of the times), one that is half as long again is a gap.
 fn gap(times_s: &[f64]) -> Option<(usize, f64)> {
@@ -559,6 +581,33 @@ mod tests {
         let below = found("time,displacement,force\ns,mm,kN\n").unwrap();
         assert!(once.series == twice.series && below.get(Channel::Force).is_some(), "{below:?}");
         assert!(found(&format!("Test 3\n{stated}")).is_ok());
+    }
+
+    /// Milliseconds called seconds make a rate of friction a thousand times too low.
+    #[test]
+    fn milliseconds_without_a_unit_are_doubted() {
+        let rows = |step: usize| -> String {
+            (0..50).map(|i| format!("{},{}\n", step * i, i % 7)).collect()
+        };
+        let kinds = |header: &str| -> Vec<NoticeKind> {
+            let measured = read(&format!("{header}\n{}", rows(5)), &[]).unwrap();
+            measured.warnings.iter().map(|warning| warning.kind).collect()
+        };
+        assert_eq!(kinds("Time,force_n"), [NoticeKind::LongStep]);
+        for header in ["Time (s),force_n", "time_ms,force_n", "time_s,force_n"] {
+            assert_eq!(kinds(header), [], "{header}");
+        }
+    }
+
+    /// A column of remarks is left out, and that is said; a fault matters where its column is used.
+    #[test]
+    fn columns_of_text_are_left_out() {
+        let text = "time_s,operator,force_n,temperature (C)\n0,A. B.,1,20\n0.01,A. B.,2,n/a\n";
+        let measured = read(text, &[]).unwrap();
+        assert_eq!(measured.get(Channel::Force).unwrap().values, [1.0, 2.0]);
+        assert_eq!(measured.warnings[0].kind, NoticeKind::ColumnSkipped);
+        let error = read(&text.replace(",2,", ",,"), &[]).unwrap_err();
+        assert!(error.starts_with("m.csv:3:13: expected a finite number"), "{error}");
     }
 
     #[test]
