@@ -92,6 +92,8 @@ kinds! {
     ClockAssumed "clock_assumed" Warning,
     /// Times of blocks run away from equal steps.
     ClockDrift "clock_drift" Warning,
+    /// Two files of one test have clocks of their own: one was shifted to where the other shows it.
+    ClocksAligned "clocks_aligned" Warning,
     /// A column was left out.
     ColumnSkipped "column_skipped" Note,
     /// Blocks stood twice.

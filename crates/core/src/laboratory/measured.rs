@@ -35,6 +35,8 @@ pub struct Measured {
     pub warnings: Vec<Notice>,
     /// Whether the mapping says that all sensors are right as measured.
     pub zero_as_measured: bool,
+    /// Whether displacement and force come from files with clocks of their own, which were aligned.
+    pub is_of_two_clocks: bool,
     /// Names of the file's columns, for messages.
     names: String,
 }
@@ -153,7 +155,25 @@ impl Measured {
         let source_name = columns.source_name.clone();
         let zero_as_measured = mapping.zero == Zero::AsMeasured;
         warnings.extend(doubt_of_seconds(has_unit_of_time, &times_s));
-        Ok(Self { source_name, dt_s, series, warnings, zero_as_measured, names })
+        let is_of_two_clocks = false;
+        Ok(Self { source_name, dt_s, series, warnings, zero_as_measured, is_of_two_clocks, names })
+    }
+
+    /// Whether a file has the column of an entry.
+    pub(super) fn has(columns: &Columns, mapping: &Mapping, entry: &MappedColumn) -> bool {
+        find(columns, mapping, entry, &entry.column).is_ok()
+    }
+
+    /// With the quantities of another file of the same test, those that are not there yet.
+    #[must_use]
+    pub(super) fn beside(mut self, other: Self) -> Self {
+        let known: Vec<Channel> = self.series.iter().map(|series| series.channel).collect();
+        self.series.extend(other.series.into_iter().filter(|s| !known.contains(&s.channel)));
+        self.warnings.extend(other.warnings);
+        self.source_name = format!("{} + {}", self.source_name, other.source_name);
+        self.names = format!("{}, {}", self.names, other.names);
+        self.dt_s = self.dt_s.filter(|dt_s| other.dt_s == Some(*dt_s));
+        self
     }
 
     /// Number of samples of the longest quantity.
@@ -607,7 +627,7 @@ mod tests {
         assert_eq!(measured.get(Channel::Force).unwrap().values, [1.0, 2.0]);
         assert_eq!(measured.warnings[0].kind, NoticeKind::ColumnSkipped);
         let error = read(&text.replace(",2,", ",,"), &[]).unwrap_err();
-        assert!(error.starts_with("m.csv:3:13: expected a finite number"), "{error}");
+        assert!(error.starts_with("m.csv:3:12: expected a finite number"), "{error}");
     }
 
     #[test]
