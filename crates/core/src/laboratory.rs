@@ -14,6 +14,7 @@ pub mod identify;
 pub mod measured;
 pub mod metrics;
 pub mod shaking_table;
+pub mod two_clocks;
 
 /// Prints how many of 200 intervals cover the truth and how many of 200 silent records are refused,
 /// and holds both to their bars.

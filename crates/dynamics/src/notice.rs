@@ -92,6 +92,8 @@ kinds! {
     ClockAssumed "clock_assumed" Warning,
     /// Times of blocks run away from equal steps.
     ClockDrift "clock_drift" Warning,
+    /// Two files of one test have clocks of their own: one was shifted to where the other shows it.
+    ClocksAligned "clocks_aligned" Warning,
     /// A column was left out.
     ColumnSkipped "column_skipped" Note,
     /// Blocks stood twice.
@@ -241,6 +243,10 @@ kinds! {
     NotClearOfZero "not_clear_of_zero" Warning,
     /// A sensor has an offset.
     SensorOffset "sensor_offset" Warning,
+    /// Gain, clock or drift of a sensor is clear of what it is taken for, and was fitted with the rest.
+    SensorsDiffer "sensors_differ" Warning,
+    /// What a fitted model leaves is no noise: above the stated one, or with a memory that noise does not have.
+    ModelMisfit "model_misfit" Severe,
     /// A measured channel has the other sign.
     SignSuspect "sign_suspect" Severe,
     /// The static friction was taken as large as the kinetic one.

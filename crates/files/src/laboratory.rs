@@ -6,6 +6,7 @@ use slipstick::error::{ChoiceError, InputError};
 use slipstick::hash::sha256_hex;
 use slipstick::input::{MAX_TEXT_BYTES, Mapping};
 use slipstick::laboratory::measured::{Measured, MeasuredError};
+use slipstick::laboratory::two_clocks::read_two;
 use slipstick::record::{Column, Columns};
 use slipstick::table;
 
@@ -63,7 +64,8 @@ pub fn read_mapping(said: &[String]) -> Result<(Mapping, Option<TextFile>), Labo
     Ok((mapping, Some(TextFile { source, text })))
 }
 
-/// Reads a measured file: text in columns, or Parquet.
+/// Reads a measured file: text in columns, or Parquet; or two files of text of one cyclic test, displacement and force
+/// with clocks of their own, as `FIRST+SECOND`.
 ///
 /// # Errors
 /// [`LaboratoryError`] where it cannot be read or understood.
@@ -71,8 +73,15 @@ pub fn read_measured(
     path: &Path,
     mapping: &Mapping,
 ) -> Result<(Measured, SourceFile), LaboratoryError> {
-    let bytes = read_bytes(path)?;
     let name = path.display().to_string();
+    if let Some((first, second)) = name.split_once('+').filter(|_| !path.exists()) {
+        let [a, b] = [first, second].map(|part| read_bytes(Path::new(part)));
+        let (a, b) = (a?, b?);
+        let measured = read_two([(first, &a), (second, &b)], mapping)?;
+        let sha256 = sha256_hex(&[a, b].concat());
+        return Ok((measured, SourceFile { path: path.to_owned(), sha256 }));
+    }
+    let bytes = read_bytes(path)?;
     let measured = if bytes.starts_with(b"PAR1") {
         let columns = parquet::read_columns(path)?;
         let columns = columns.into_iter().filter_map(measured_column).collect();

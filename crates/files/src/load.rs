@@ -218,7 +218,7 @@ mod tests {
         let error = load_record(&request(None)).unwrap_err().to_string();
         let end = "expected one channel of acceleration: add channel = \"north_g\" to [motion] (or \
                    --channel) (channels: 1 \"north_g\" (acceleration), 2 \"east_g\" \
-                   (acceleration), 3 \"d_mm\" (displacement))";
+                   (acceleration))";
         assert_eq!(error, format!("{}: {end}", path.display()));
         for name in ["east_g", "EAST_G", "2"] {
             let loaded = load_record(&request(Some(name))).unwrap();

@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use slipstick::error::CellError;
+use slipstick::error::{CellError, RecordError};
+use slipstick::record::{TextCell, text_rows};
 use slipstick::study::Certified;
 use slipstick::table::{Cells, Column, Table, from_cell, to_cell};
 
@@ -82,8 +83,7 @@ pub fn read_table(files: &[PathBuf]) -> Result<ReadTable, FileError> {
     };
     if !first.extension().is_some_and(|e| e.eq_ignore_ascii_case("parquet")) {
         let bytes = read_bytes(first)?;
-        let text = String::from_utf8_lossy(&bytes);
-        return read_csv(first, text.strip_prefix('\u{feff}').unwrap_or(&text));
+        return read_csv(first, &bytes);
     }
     let mut columns: Vec<Column> = Vec::new();
     for path in files {
@@ -107,73 +107,33 @@ pub fn read_table(files: &[PathBuf]) -> Result<ReadTable, FileError> {
     })
 }
 
-/// A table from the text of a CSV, all of whose cells are texts.
+/// A table from the bytes of a CSV, all of whose cells are texts.
 ///
 /// # Errors
 /// [`FileError::Cell`] for rows that do not fit the header, and for a table without rows.
-pub fn read_csv(path: &Path, text: &str) -> Result<ReadTable, FileError> {
-    let mut lines = text.lines().enumerate().filter(|(_, line)| {
-        let line = line.trim();
-        !line.is_empty() && !line.starts_with('#')
-    });
-    let Some((_, header)) = lines.next() else {
-        return Err(cell_error(path, 1, 1, "a header with names of columns", "nothing"));
-    };
-    let mut columns: Vec<(String, Vec<String>)> = cells(header)
-        .into_iter()
-        .map(|cell| (from_cell(&cell.text).to_owned(), Vec::new()))
-        .collect();
-    let mut places = Vec::new();
-    for (number, line) in lines {
-        let row = cells(line);
-        if row.len() != columns.len() {
-            let expected = format!("{} cells, as the header has", columns.len());
-            return Err(cell_error(path, number + 1, 1, &expected, &row.len().to_string()));
-        }
-        places.push((number + 1, row.iter().map(|cell| cell.column).collect()));
-        for ((_, texts), cell) in columns.iter_mut().zip(row) {
-            texts.push(from_cell(&cell.text).to_owned());
-        }
-    }
-    if places.is_empty() {
+pub fn read_csv(path: &Path, bytes: &[u8]) -> Result<ReadTable, FileError> {
+    let read = text_rows(&path.display().to_string(), bytes).map_err(|error| {
+        let RecordError { line, column, expected, found, .. } = error;
+        cell_error(path, line, column, &expected, &found)
+    })?;
+    if read.rows.is_empty() {
         return Err(cell_error(path, 2, 1, "at least one row", "none"));
     }
-    let columns = columns.into_iter().map(|(name, texts)| Column::texts(&name, texts)).collect();
+    let column = |(index, name): (usize, &String)| {
+        let cells = read.rows.iter().map(|(_, cells)| from_cell(&cells[index].text).to_owned());
+        Column::texts(from_cell(name), cells.collect())
+    };
+    let columns = read.names.iter().enumerate().map(column).collect();
+    let place = |(line, cells): &(usize, Vec<TextCell>)| {
+        (*line, cells.iter().map(|cell| cell.column).collect())
+    };
+    let places = read.rows.iter().map(place).collect();
     Ok(ReadTable { table: Table { columns }, path: path.to_owned(), certified: None, places })
 }
 
 fn cell_error(path: &Path, line: usize, column: usize, expected: &str, found: &str) -> FileError {
     let (expected, found) = (expected.to_owned(), found.to_owned());
     FileError::Cell { path: path.to_owned(), line, column, expected, found }
-}
-
-/// A cell and its column in characters, from 1.
-struct Cell {
-    text: String,
-    column: usize,
-}
-
-/// The cells of a line: between commas, perhaps in quotes, a doubled quote standing for one.
-fn cells(line: &str) -> Vec<Cell> {
-    let mut found = vec![Cell { text: String::new(), column: 1 }];
-    let mut quoted = false;
-    let mut characters = line.chars().enumerate().peekable();
-    while let Some((at, character)) = characters.next() {
-        let last = found.len() - 1;
-        match character {
-            '"' if quoted && characters.peek().is_some_and(|(_, next)| *next == '"') => {
-                characters.next();
-                found[last].text.push('"');
-            }
-            '"' => quoted = !quoted,
-            ',' if !quoted => found.push(Cell { text: String::new(), column: at + 2 }),
-            other => found[last].text.push(other),
-        }
-    }
-    for cell in &mut found {
-        cell.text = cell.text.trim().to_owned();
-    }
-    found
 }
 
 #[cfg(test)]

@@ -1,6 +1,9 @@
 //! Delimited text: one column of values, times and values, or many columns, with or without a
 //! header; separated by comma, semicolon, tab or blanks; with decimal point or decimal comma.
 //!
+//! Columns of text, and of quantities that are no motion, are passed over, whatever stands in them; so are
+//! columns of which every cell is empty. What was passed over is said.
+//!
 //! Lines that begin with `#`, `%`, `!`, `//` or `*` and hold a letter are comments. A few lines of
 //! other text may stand first; the last of them (or of the comments) names the columns if it has as
 //! many names. A first line of two numbers, count and step, is understood where what follows shows
@@ -13,6 +16,7 @@ mod layout;
 mod style;
 mod table;
 mod target;
+pub(crate) mod texts;
 mod words;
 
 use super::text::Text;
@@ -39,6 +43,7 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
     let given_s = table.given_step(text, options.dt_s)?;
     let layout = layout::of(text, &header, &table, given_s)?;
     let (series, mut warnings) = series(text, &header, &table, &layout, options.units)?;
+    warnings.extend(count_differs(text, &header, &table));
     let missing_units = series.iter().any(|s| s.units.is_none());
     let missing_step = layout.times_s.is_none() && given_s.is_none();
     if missing_units || missing_step {
@@ -83,6 +88,21 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
     Ok(Record { format: Format::Delimited, layout: layout.words, channels, warnings })
 }
 
+/// What a line of the header says that is a number and `samples`, as EXSIM writes it, where there are others.
+fn count_differs(text: &Text, header: &Header, table: &TextTable) -> Option<Notice> {
+    let stated = text.lines().take(header.lines).find_map(|line| {
+        let mut words = line.words().map(|word| line.str(&word));
+        let count = words.next()?.parse::<usize>().ok()?;
+        let is_count = words.next()? == "samples" && words.next().is_none();
+        is_count.then_some((line.number, count))
+    });
+    let (line, count) = stated.filter(|(_, count)| *count != table.rows())?;
+    let rows = table.rows();
+    let message = format!("line {line} states {count} samples, {rows} stand there");
+    let kind = if rows < count { NoticeKind::Truncated } else { NoticeKind::HeaderDiffers };
+    Some(Notice::new(kind, message))
+}
+
 /// Values of one channel as they stand, and their units if they are known.
 struct ColumnSeries {
     name: String,
@@ -99,6 +119,10 @@ fn series(
     given: Option<Units>,
 ) -> Result<(Vec<ColumnSeries>, Vec<Notice>), RecordError> {
     let mut warnings = layout.notices.clone();
+    if let Some(line) = table.tail {
+        let message = format!("the last line, {line}, is words and no numbers: skipped");
+        warnings.push(Notice::new(NoticeKind::ColumnSkipped, message));
+    }
     if layout.wrapped {
         let message = format!(
             "{} values a line without header and times were read along the lines as one series",
@@ -113,6 +137,8 @@ fn series(
         return Err(table.error_found(text, expected, &table.columns.to_string()));
     }
     let mut series = Vec::new();
+    // Columns whose unit nobody knows.
+    let mut unknown: Vec<usize> = Vec::new();
     let offsets = offsets(text);
     let is_motion =
         |c: &usize| ![layout.time_column, layout.index, table.clock[1]].contains(&Some(*c));
@@ -122,10 +148,19 @@ fn series(
         let unit = named.and_then(|named| named.unit);
         let unit = if named.is_some_and(Name::is_time) { Some(Unit::Other) } else { unit };
         let units = match (unit, given) {
+            _ if table.is_text(column) => {
+                let message = format!("the column \"{name}\" holds no numbers: skipped");
+                warnings.push(Notice::new(NoticeKind::ColumnSkipped, message));
+                continue;
+            }
             (Some(Unit::Other | Unit::Time(_)), _) => {
-                let message = format!(
-                    "the column \"{name}\" is no acceleration, velocity or displacement: skipped"
-                );
+                let of_unknown = named.and_then(Name::unknown_unit);
+                unknown.extend(of_unknown.map(|_| column));
+                let why = match of_unknown {
+                    Some(unit) => format!("has the unit \"{unit}\", which is not known"),
+                    None => "is no acceleration, velocity or displacement".to_owned(),
+                };
+                let message = format!("the column \"{name}\" {why}: skipped");
                 warnings.push(Notice::new(NoticeKind::ColumnSkipped, message));
                 continue;
             }
@@ -143,6 +178,7 @@ fn series(
             }
             (_, given) => given,
         };
+        table.require(text, column)?;
         let mut values: Vec<f64> = table.column(column).collect();
         if let Some((_, offset)) = offsets.iter().find(|(of, _)| *of == name) {
             values.iter_mut().for_each(|value| *value -= offset);
@@ -152,7 +188,26 @@ fn series(
         }
         series.push(ColumnSeries { name, values, units });
     }
+    if let (true, Some(names), [_, ..]) = (series.is_empty(), &layout.names, &unknown[..]) {
+        let name = |column: &usize| names[*column].text.clone();
+        let Some(units) = given else {
+            let expected = "a column of acceleration, velocity or displacement in a unit that is known, \
+                            such as g, m/s2, cm/s2, gal or %g (or give its unit: units = \"g\" in \
+                            [motion], --units g)";
+            return Err(header.error(text, expected, &name(&unknown[0])));
+        };
+        for column in unknown {
+            table.require(text, column)?;
+            let (name, values) = (name(&column), table.column(column).collect());
+            let message =
+                format!("the unit of \"{name}\" is not known: the one given, {units}, was taken");
+            warnings.retain(|w| !w.message.starts_with(&format!("the column \"{name}\"")));
+            warnings.push(Notice::new(NoticeKind::QuantityDiffers, message));
+            series.push(ColumnSeries { name, values, units: Some(units) });
+        }
+    }
     if series.is_empty() {
+        table.require_all(text)?;
         let expected = "a column of acceleration, velocity or displacement";
         return Err(header.error(text, expected, "none"));
     }

@@ -26,6 +26,7 @@ mod dyna;
 mod fixed;
 mod geonet;
 mod itaca;
+mod jma;
 mod keys;
 mod knet;
 mod miniseed;
@@ -52,6 +53,7 @@ use slipstick_dynamics::motion::{GroundMotion, MAX_STEP_S, Series};
 use slipstick_dynamics::notice::Notice;
 
 pub use delimited::bracket;
+pub use delimited::texts::{TextCell, TextRows, cell_ranges, separator_of};
 pub use delimited::{Column, Columns};
 pub use origin::Origin;
 pub use quality::judged;
@@ -84,6 +86,8 @@ pub enum Format {
     SeismoSignal,
     /// K-NET and KiK-net, Japan: `.EW`, `.NS`, `.UD`, `.EW1`, …
     Knet,
+    /// JMA, the Japan Meteorological Agency: `.csv`.
+    Jma,
     /// DYNA of ESM, ITACA and AFAD: `.ASC`, `.asc`.
     Dyna,
     /// Older ITACA and SISMA: `.acc`.
@@ -108,7 +112,7 @@ pub enum Format {
 
 impl Format {
     /// All of them.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 20] = [
         Self::Peer,
         Self::Csmip,
         Self::Cosmos,
@@ -118,6 +122,7 @@ impl Format {
         Self::Bhrc,
         Self::SeismoSignal,
         Self::Knet,
+        Self::Jma,
         Self::Dyna,
         Self::Itaca,
         Self::Nsmn,
@@ -143,6 +148,7 @@ impl Format {
             Self::Bhrc => "bhrc",
             Self::SeismoSignal => "seismosignal",
             Self::Knet => "knet",
+            Self::Jma => "jma",
             Self::Dyna => "dyna",
             Self::Itaca => "itaca",
             Self::Nsmn => "nsmn",
@@ -263,6 +269,12 @@ impl Record {
 }
 
 impl Channel {
+    /// Whether it is a vertical component by what its file or its own name says.
+    #[must_use]
+    pub fn is_vertical(&self) -> bool {
+        origin::is_vertical_channel(self)
+    }
+
     /// The same channel with other samples in it, in SI: what processing makes of it.
     #[must_use]
     pub fn with_series(&self, series: &Series) -> Self {
@@ -311,7 +323,7 @@ pub fn read(source_name: &str, bytes: &[u8], options: &Options) -> Result<Record
     let mut record = match binary(bytes, options) {
         Some(Format::Sac) => sac::read_bytes(source_name, bytes, options),
         Some(_) => miniseed::read_bytes(source_name, bytes, options),
-        None => read_text(&Text::new(source_name, bytes)?, options),
+        None => read_text(&Text::new(source_name, &text::decoded(bytes))?, options),
     }?;
     distinct(&mut record.channels);
     record.channels.iter_mut().for_each(quality::inspect);
@@ -327,7 +339,8 @@ pub fn read_delimited(
     bytes: &[u8],
     options: &Options,
 ) -> Result<Record, RecordError> {
-    let text = Text::new(source_name, bytes)?;
+    let bytes = text::decoded(bytes);
+    let text = Text::new(source_name, &bytes)?;
     given(&text, options)?;
     let mut record = delimited::read(&text, options)?;
     distinct(&mut record.channels);
@@ -374,6 +387,7 @@ fn read_text(text: &Text, options: &Options) -> Result<Record, RecordError> {
         Format::Bhrc => bhrc::read(text, options),
         Format::SeismoSignal => seismosignal::read(text, options),
         Format::Knet => knet::read(text, options),
+        Format::Jma => jma::read(text, options),
         Format::Dyna => dyna::read(text, options),
         Format::Itaca => itaca::read(text, options),
         Format::Nsmn => nsmn::read(text, options),
@@ -396,7 +410,15 @@ fn read_text(text: &Text, options: &Options) -> Result<Record, RecordError> {
 /// [`RecordError`] with line and column for what is no table of finite numbers: an empty cell, a
 /// word, a row of another length, fewer than two rows.
 pub fn columns(source_name: &str, bytes: &[u8]) -> Result<Columns, RecordError> {
-    delimited::read_columns(&Text::new(source_name, bytes)?)
+    delimited::read_columns(&Text::new(source_name, &text::decoded(bytes))?)
+}
+
+/// Reads a table whose cells are texts: a header of names, then rows as long.
+///
+/// # Errors
+/// [`RecordError`] for bytes that are no text, no header, and a row of another length.
+pub fn text_rows(source_name: &str, bytes: &[u8]) -> Result<TextRows, RecordError> {
+    delimited::texts::read(&Text::new(source_name, &text::decoded(bytes))?)
 }
 
 /// Reads a target spectrum: a table with a column of periods and one of spectral accelerations.
@@ -405,7 +427,7 @@ pub fn columns(source_name: &str, bytes: &[u8]) -> Result<Columns, RecordError> 
 /// [`RecordError`] for what is no such table, an acceleration without a unit, periods that do not rise
 /// and accelerations that are not above 0.
 pub fn target_spectrum(source_name: &str, bytes: &[u8]) -> Result<TargetSpectrum, RecordError> {
-    delimited::read_target(&Text::new(source_name, bytes)?)
+    delimited::read_target(&Text::new(source_name, &text::decoded(bytes))?)
 }
 
 /// Numbers the channels that share a name, so that a name picks one channel or none.
@@ -427,7 +449,7 @@ fn distinct(channels: &mut [Channel]) {
 type Recognises = fn(&Text) -> bool;
 
 /// The formats that a text may be, the surest signs first.
-const TEXT_FORMATS: [(Format, Recognises); 17] = [
+const TEXT_FORMATS: [(Format, Recognises); 18] = [
     (Format::Cosmos, cosmos::recognises),
     (Format::Smc, smc::recognises),
     // USC, RENADIC and GeoNet write volumes much as CSMIP does.
@@ -438,6 +460,7 @@ const TEXT_FORMATS: [(Format, Recognises); 17] = [
     (Format::Csmip, csmip::recognises),
     (Format::SeismoSignal, seismosignal::recognises),
     (Format::Knet, knet::recognises),
+    (Format::Jma, jma::recognises),
     (Format::Dyna, dyna::recognises),
     (Format::Itaca, itaca::recognises),
     (Format::Nsmn, nsmn::recognises),

@@ -111,6 +111,14 @@ impl Origin {
     }
 }
 
+/// Whether a channel is vertical by its component or its own name: `UP`, `UD (gal)`, `U-D`, `acc_z`.
+pub(crate) fn is_vertical_channel(channel: &Channel) -> bool {
+    let words = |text: &str| text.split([' ', ',', '(', '[', '_', '-']).any(is_vertical);
+    let name = crate::bracket(&channel.name).map_or(channel.name.as_str(), |(base, _)| base);
+    let of_name = words(name) || is_vertical(name) || name.to_lowercase().contains("vertical");
+    channel.azimuth_deg.is_none() && (of_name || channel.component.as_deref().is_some_and(words))
+}
+
 fn is_vertical(word: &str) -> bool {
     VERTICAL.iter().any(|name| word.eq_ignore_ascii_case(name))
 }

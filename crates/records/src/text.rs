@@ -32,6 +32,18 @@ pub fn packed(bytes: &[u8]) -> Option<[&'static str; 2]> {
     PACKED.into_iter().find(|(start, _)| bytes.starts_with(start)).map(|(_, words)| words)
 }
 
+/// Bytes as they are, but UTF-16 with its mark, as spreadsheets save it, as UTF-8.
+pub(super) fn decoded(bytes: &[u8]) -> std::borrow::Cow<'_, [u8]> {
+    let pair: fn([u8; 2]) -> u16 = match bytes {
+        [0xFF, 0xFE, ..] => u16::from_le_bytes,
+        [0xFE, 0xFF, ..] => u16::from_be_bytes,
+        _ => return bytes.into(),
+    };
+    let units = bytes[2..].chunks_exact(2).map(|two| pair([two[0], two[1]]));
+    let characters = char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER));
+    characters.collect::<String>().into_bytes().into()
+}
+
 impl<'a> Text<'a> {
     /// Takes the bytes as text: UTF-8 with or without its mark, or any other superset of ASCII.
     ///
@@ -96,6 +108,12 @@ impl<'a> Text<'a> {
     /// Lines ended by LF, CRLF, CR CR LF or CR.
     pub fn lines(&self) -> Lines<'a> {
         Lines { rest: self.bytes, number: 0 }
+    }
+
+    /// The last line that is not blank and of which `is_left_out` does not hold; its number is not counted.
+    pub fn last_line(&self, is_left_out: impl Fn(&Line) -> bool) -> Option<Line<'a>> {
+        let lines = self.bytes.rsplit(|b| matches!(b, b'\n' | b'\r'));
+        lines.map(|bytes| Line { number: 0, bytes }).find(|l| !l.is_blank() && !is_left_out(l))
     }
 
     /// Where a line of this text starts.

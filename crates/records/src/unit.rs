@@ -15,7 +15,7 @@ pub struct Units {
 }
 
 /// Symbol, quantity, factor to SI, and the spellings of it after [`plain`].
-const TABLE: [(&str, Quantity, f64, &[&str]); 23] = {
+const TABLE: [(&str, Quantity, f64, &[&str]); 28] = {
     use Quantity::{Acceleration, Counts, Displacement, Velocity};
     const G: f64 = STANDARD_GRAVITY_M_PER_S2;
     const INCH: f64 = 0.0254;
@@ -25,21 +25,26 @@ const TABLE: [(&str, Quantity, f64, &[&str]); 23] = {
         ("g/10", Acceleration, G / 10.0, &["g/10"]),
         ("%g", Acceleration, G / 100.0, &["%g", "pctg", "percentg", "%ofg", "g%"]),
         ("mg", Acceleration, G / 1e3, &["mg", "milli-g", "millig"]),
-        ("µg", Acceleration, G / 1e6, &["µg", "μg", "ug", "microg"]),
+        ("µg", Acceleration, G / 1e6, &["µg", "ug", "microg"]),
         ("m/s²", Acceleration, 1.0, &["m/s2", "m/s/s", "ms-2", "m/s-2"]),
         ("cm/s²", Acceleration, 0.01, &["cm/s2", "cm/s/s", "gal", "gals", "cms-2", "cms/s/s"]),
         ("mm/s²", Acceleration, 0.001, &["mm/s2", "mm/s/s", "mms-2"]),
+        ("µm/s²", Acceleration, 1e-6, &["µm/s2", "µm/s/s", "µms-2", "um/s2", "um/s/s", "ums-2"]),
         ("nm/s²", Acceleration, 1e-9, &["nm/s2", "nm/s/s", "nms-2"]),
+        ("mGal", Acceleration, 1e-5, &["mgal", "mgals", "milligal"]),
+        ("µGal", Acceleration, 1e-8, &["µgal", "ugal", "microgal"]),
         ("in/s²", Acceleration, INCH, &["in/s2", "in/s/s"]),
         ("ft/s²", Acceleration, FOOT, &["ft/s2", "ft/s/s"]),
-        ("m/s", Velocity, 1.0, &["m/s"]),
-        ("cm/s", Velocity, 0.01, &["cm/s", "cms/s"]),
-        ("mm/s", Velocity, 0.001, &["mm/s"]),
+        ("m/s", Velocity, 1.0, &["m/s", "ms-1"]),
+        ("cm/s", Velocity, 0.01, &["cm/s", "cms/s", "cms-1"]),
+        ("mm/s", Velocity, 0.001, &["mm/s", "mms-1"]),
+        ("µm/s", Velocity, 1e-6, &["µm/s", "um/s", "µms-1", "ums-1"]),
         ("nm/s", Velocity, 1e-9, &["nm/s"]),
         ("in/s", Velocity, INCH, &["in/s"]),
         ("m", Displacement, 1.0, &["m"]),
         ("cm", Displacement, 0.01, &["cm", "cms"]),
         ("mm", Displacement, 0.001, &["mm"]),
+        ("µm", Displacement, 1e-6, &["µm", "um"]),
         ("nm", Displacement, 1e-9, &["nm"]),
         ("in", Displacement, INCH, &["in"]),
         ("ft", Displacement, FOOT, &["ft"]),
@@ -88,6 +93,12 @@ impl Units {
             .map(|&(symbol, quantity, si, _)| Self { symbol, quantity, si, times: 1.0 })
     }
 
+    /// Their symbol, without the value of one count.
+    #[must_use]
+    pub fn symbol(self) -> &'static str {
+        self.symbol
+    }
+
     /// What they measure.
     #[must_use]
     pub fn quantity(self) -> Quantity {
@@ -134,8 +145,12 @@ pub(super) fn seconds(word: &str) -> Option<f64> {
 fn plain(word: &str) -> String {
     word.trim()
         .to_lowercase()
-        .replace([' ', '^', '*'], "")
+        .replace([' ', '^', '*', '.', '·', '⋅', '•'], "")
         .replace(['²', '\u{FFFD}'], "2")
+        .replace('¹', "1")
+        .replace(['⁻', '−', '–'], "-")
+        // The sign of micro has two places in Unicode.
+        .replace('μ', "µ")
         .replace("sec", "s")
         .replace("sn", "s")
         .replace("_per_", "/")
@@ -163,6 +178,14 @@ mod tests {
             ("%g", "%g", 0.098_066_5),
             ("m_s2", "m/s²", 1.0),
             ("cm/sn²", "cm/s²", 0.01),
+            ("m.s-2", "m/s²", 1.0),
+            ("m·s⁻²", "m/s²", 1.0),
+            ("cm.s^-2", "cm/s²", 0.01),
+            ("mGal", "mGal", 1e-5),
+            ("µm/s²", "µm/s²", 1e-6),
+            ("μm/s/s", "µm/s²", 1e-6),
+            ("um/s^2", "µm/s²", 1e-6),
+            ("m.s-1", "m/s", 1.0),
         ] {
             let units = Units::parse(word).unwrap_or_else(|| panic!("{word}"));
             assert_eq!((units.symbol, units.si), (symbol, si), "{word}");

@@ -62,8 +62,10 @@ pub(super) struct Heading<'a> {
     pub dt_s: f64,
     /// Where the step stands.
     pub step_word: Range<usize>,
-    /// Units of the values.
-    pub units: Units,
+    /// Units of the values, where the heading states them.
+    pub units: Option<Units>,
+    /// What they measure, where it says so.
+    pub quantity: Option<Quantity>,
     /// Their columns, where stated.
     pub fields: Option<Fields>,
 }
@@ -201,6 +203,42 @@ impl<'a> Head<'a> {
         })
     }
 
+    /// The units of a block whose heading states none: those given, else those that stand beside its peak in
+    /// the text; with a notice where the two differ.
+    ///
+    /// # Errors
+    /// Where there are neither.
+    fn units_beside_peak(
+        &self,
+        text: &Text,
+        heading: &Heading,
+        given: Option<Units>,
+    ) -> Result<(Units, Option<Notice>), RecordError> {
+        let fits = |units: &Units| Some(units.quantity()) == heading.quantity;
+        let key = heading.quantity.and_then(peak_key).unwrap_or_default();
+        let peak = self.number_after(key).filter(|_| !key.is_empty());
+        let beside = peak.as_ref().and_then(|peak| {
+            let word = peak.line.words().find(|word| word.start >= peak.word.end)?;
+            Units::parse(peak.line.str(&word).trim_end_matches([',', '.'])).filter(fits)
+        });
+        let given = given.filter(fits);
+        let differ = given.zip(beside).filter(|(given, beside)| given != beside);
+        let line = peak.map_or(0, |peak| peak.line.number);
+        let notice = differ.map(|(given, beside)| {
+            let message = format!(
+                "line {line} states the peak in {beside}: the units given, {given}, were taken"
+            );
+            Notice::new(NoticeKind::HeaderDiffers, message)
+        });
+        match given.or(beside) {
+            Some(units) => Ok((units, notice)),
+            None => {
+                let found = heading.line.trimmed();
+                Err(text.error(&heading.line, 0, super::keys_to_add(true, false), &found))
+            }
+        }
+    }
+
     /// A warning where the values do not reach the peak that the text states within its digits.
     pub fn check_peak(&self, capitals: &str, channel: &mut Channel) {
         let Some(stated) = self.number_after(capitals) else { return };
@@ -211,6 +249,16 @@ impl<'a> Head<'a> {
         let ulp = super::text::last_digit(&stated.line.bytes[stated.word.clone()]);
         let warning = quality::peak_differs(channel, stated.value, ulp, unit, stated.line.number);
         channel.warnings.extend(warning);
+    }
+}
+
+/// What stands before the peak of a quantity in the text of a volume II.
+fn peak_key(quantity: Quantity) -> Option<&'static str> {
+    match quantity {
+        Quantity::Acceleration => Some("PEAK ACCELERATION"),
+        Quantity::Velocity => Some("PEAK   VELOCITY"),
+        Quantity::Displacement => Some("PEAK DISPLACEMENT"),
+        Quantity::Counts => None,
     }
 }
 
@@ -285,13 +333,16 @@ impl<'a> Heading<'a> {
         let announced = announced.map(|(quantity, _)| quantity);
         let units = Units::parse(&line.str(&word));
         let agrees = |u: &Units| announced.is_none_or(|q| q == u.quantity());
-        let Some(units) = units.filter(agrees) else {
+        let units = units.filter(agrees);
+        // Older headings state no units; the text above may, beside the peaks.
+        if units.is_none() && (!word.is_empty() || announced.is_none()) {
             let what = announced.map_or("acceleration, velocity or displacement", Quantity::name);
             return Err(text.error_at(&line, &word, format!("units of {what}")));
-        };
+        }
+        let quantity = announced.or(units.map(Units::quantity));
         let (dt_s, step_word) = (step.value, step.word);
         let fields = Fields::stated(&line);
-        Ok(Some(Self { line, count, dt_s, step_word, units, fields }))
+        Ok(Some(Self { line, count, dt_s, step_word, units, quantity, fields }))
     }
 }
 
@@ -392,11 +443,18 @@ pub(super) fn blocks(
         cursor.next("a heading")?;
         let text = cursor.text;
         let word = units_word(&line).unwrap_or(0..0);
-        agree(text, &line, &word, heading.units, options.units)?;
+        let (units, doubt) = match heading.units {
+            Some(stated) => {
+                agree(text, &line, &word, stated, options.units)?;
+                (stated, None)
+            }
+            None => head.units_beside_peak(text, &heading, options.units)?,
+        };
         let dt_s =
             sampling::stated_step(text, &line, &heading.step_word, heading.dt_s, options.dt_s)?;
         let values = cursor.values(heading.fields.unwrap_or(usual), heading.count, &line)?;
-        let mut channel = names.channel(head, heading.units, values, Sampling::Dt(dt_s));
+        let mut channel = names.channel(head, units, values, Sampling::Dt(dt_s));
+        channel.warnings.extend(doubt);
         check_text(text, head, &heading, &mut channel)?;
         channels.push(channel);
     }
@@ -410,7 +468,8 @@ fn check_text(
     heading: &Heading,
     channel: &mut Channel,
 ) -> Result<(), RecordError> {
-    let acceleration = heading.units.quantity() == Quantity::Acceleration;
+    let units = channel.units;
+    let acceleration = units.quantity() == Quantity::Acceleration;
     let step = if head.corrected {
         head.number_after("SPACED INTERVALS OF")
     } else {
@@ -425,10 +484,10 @@ fn check_text(
         let expected = format!("the step of line {}, {} s", heading.line.number, heading.dt_s);
         return Err(text.error_at(&step.line, &step.word, expected));
     }
-    if let (false, Some((line, word, Some(units)))) = (head.corrected, head.units())
-        && units != heading.units
+    if let (false, Some((line, word, Some(stated)))) = (head.corrected, head.units())
+        && stated != units
     {
-        let expected = format!("the units of line {}, {}", heading.line.number, heading.units);
+        let expected = format!("the units of line {}, {units}", heading.line.number);
         return Err(text.error_at(&line, &word, expected));
     }
     let count = if head.corrected {
@@ -449,14 +508,15 @@ fn check_text(
     if acceleration {
         head.check_count(heading.count, channel);
     }
-    let peak = match (head.corrected, heading.units.quantity()) {
-        (false, Quantity::Acceleration) => "MAX ",
-        (true, Quantity::Acceleration) => "PEAK ACCELERATION",
-        (true, Quantity::Velocity) => "PEAK   VELOCITY",
-        (true, Quantity::Displacement) => "PEAK DISPLACEMENT",
-        _ => return Ok(()),
-    };
-    head.check_peak(peak, channel);
+    match (head.corrected, units.quantity()) {
+        (false, Quantity::Acceleration) => head.check_peak("MAX ", channel),
+        (true, quantity) => {
+            if let Some(key) = peak_key(quantity) {
+                head.check_peak(key, channel);
+            }
+        }
+        _ => {}
+    }
     Ok(())
 }
 

@@ -166,6 +166,7 @@ impl Records {
                 quantity: quantity.name(),
                 usable: quantity == Quantity::Acceleration,
                 counts: quantity == Quantity::Counts,
+                vertical: channel.is_vertical(),
                 values: channel.values.len(),
                 dt_s: match channel.sampling {
                     Sampling::Dt(dt_s) => Some(dt_s),

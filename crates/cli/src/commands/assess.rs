@@ -82,7 +82,7 @@ pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
 
 /// Time that reading a source may take, from its first lines or its first parts.
 fn reading_left(source: &Path) -> Option<Duration> {
-    let piece = |bytes: &[u8]| drop(read_csv(source, &String::from_utf8_lossy(bytes)));
+    let piece = |bytes: &[u8]| drop(read_csv(source, bytes));
     let files = files_of_runs(source).ok()?;
     let parts = |count: usize| read_table(&files[..count]).ok().map(|_| ());
     match files.as_slice() {

@@ -291,7 +291,11 @@ fn choose(wanted: Wanted<'_>, component: Component) -> Result<&Channel, LoadErro
         let describe = |(i, c): (usize, &Channel)| {
             format!("{} {:?} ({})", i + 1, c.name, c.units.quantity().name())
         };
-        let channels = listed(record.channels.iter().enumerate().map(describe));
+        let all = || record.channels.iter().enumerate();
+        // Those that may be chosen, where there are any.
+        let fitting: Vec<_> = all().filter(|(_, c)| is_acceleration(c)).collect();
+        let shown = if fitting.is_empty() { all().collect() } else { fitting };
+        let channels = listed(shown.into_iter().map(describe));
         LoadError::Channel { expected, key, channels, component }
     };
     if let Some(name) = wanted.channel {
@@ -308,7 +312,10 @@ fn choose(wanted: Wanted<'_>, component: Component) -> Result<&Channel, LoadErro
         }
         (None, ..) => Err(error("a channel of acceleration".to_owned(), None)),
         (Some(first), Some(_), _) => {
-            let name = &first.name;
+            let wanted = component == Component::Vertical;
+            let of_kind = |c: &&Channel| c.is_vertical() == wanted;
+            let mut all = record.channels.iter().filter(is_acceleration);
+            let name = &all.find(of_kind).unwrap_or(first).name;
             let key = if component == Component::Y { "channel_y" } else { "channel" };
             let expected = format!("one channel of acceleration: add {key} = {name:?} to [motion]");
             Err(error(expected, Some(key)))

@@ -177,6 +177,14 @@ pub struct Mapping {
 }
 
 impl Mapping {
+    /// The same with the entries alone that are wanted.
+    #[must_use]
+    pub fn of_columns(&self, is_wanted: impl Fn(&MappedColumn) -> bool) -> Self {
+        let mut chosen = self.clone();
+        chosen.columns.retain(is_wanted);
+        chosen
+    }
+
     /// Reads a mapping file (`None` for none) and options of the form `QUANTITY=COLUMN…`, which
     /// replace what the file says of the same quantity.
     ///

@@ -50,7 +50,7 @@ pub struct Records {
     /// Unit of their values, where the files do not state it.
     pub units: Option<Units>,
     /// Name of that unit.
-    pub unit_name: Option<&'static str>,
+    pub unit_name: Option<String>,
     /// Their time step in s, where the files do not state it.
     pub dt_s: Option<f64>,
     /// Which of their channels, by name or by number from 1.

@@ -8,6 +8,7 @@ use super::schema::{Key, Kind, Range, Section};
 use super::tree::{Entry, Node, SourceSpan, Sources, TomlTable, Value};
 use crate::error::{InputError, UnitError, cut, similar};
 use crate::numerics::sort;
+use crate::record::{Quantity, Units};
 use crate::units::{self, Unit};
 
 /// What a key was given.
@@ -405,6 +406,11 @@ impl Values {
             }
             (Kind::UnitOf(dimension), Value::Text(text)) => {
                 let unit = units::parse_unit(after_count(text), *dimension);
+                // Records know more spellings (%g, mGal, m.s-2): as it is written they read it.
+                let of_records =
+                    Units::parse(text).filter(|u| u.quantity() == Quantity::Acceleration);
+                let si = || units::parse_unit(dimension.si_unit(), *dimension).ok();
+                let unit = unit.or_else(|error| of_records.and_then(|_| si()).ok_or(error));
                 LeafValue::Unit(unit.map_err(|error| self.bad_unit(path, node, error))?)
             }
             (Kind::QuantityOrRatio(_, range), Value::Number(value, _)) => {

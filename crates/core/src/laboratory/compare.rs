@@ -429,6 +429,22 @@ fn pair(series: &MeasuredSeries, start_s: f64, history: &History) -> Option<Pair
     })
 }
 
+/// A quantity of a history at times in s that do not decrease, at its ends where they lie outside it; `None`
+/// where the history lacks it.
+pub(super) fn predicted(channel: Channel, history: &History, times_s: &[f64]) -> Option<Vec<f64>> {
+    let knots = Knots::of(channel, history)?;
+    let end_s = history.time_s.last().copied()?;
+    let mut knot = 0;
+    let at = |time_s: &f64| {
+        let time_s = time_s.clamp(0.0, end_s);
+        while knot + 1 < history.len() && history.time_s[knot + 1] <= time_s {
+            knot += 1;
+        }
+        knots.at(knot, time_s)
+    };
+    Some(times_s.iter().map(at).collect())
+}
+
 /// One quantity of a history at its knots, with its rate where that is stored too.
 struct Knots<'a> {
     times_s: &'a [f64],

@@ -42,6 +42,9 @@ const SLOWEST: f64 = 0.2;
 /// rise of the force between two samples.
 const CLEAR_DROP: f64 = 4.0;
 
+/// The part of the cycles of one frequency that must show a breakaway.
+const MOST_SHOW: f64 = 0.7;
+
 /// Friction counts where its mean is this many of its standard errors.
 const CLEAR_WIDTH: f64 = 6.0;
 
@@ -908,6 +911,7 @@ impl FrictionEstimates<'_> {
     fn at_rest(&self, way: usize) -> Estimate {
         let (path, unit) = (self.path("static", way), self.unit());
         let (values, interval) = static_friction(&self.loaded.tests, way, self.exponent);
+        let cycles = self.loaded.cycles().count();
         let is_told = self.why_not.is_none() && values >= LEAST_CYCLES;
         match (interval, self.by_way, &self.why_not) {
             (_, _, Some(why)) if self.lacks_exponent => Estimate::refused(path, unit, why.as_str()),
@@ -915,8 +919,8 @@ impl FrictionEstimates<'_> {
             (Some((value, ends)), ..) if is_told => Estimate::determined(path, unit, value, ends),
             _ => {
                 let why = format!(
-                    "only {values} of {} cycles show a breakaway that is clear of noise and sampling",
-                    self.loaded.cycles().count()
+                    "only {values} of {cycles} cycles show a breakaway that is clear of noise and sampling: sample \
+                     faster, or with a rig that is less stiff"
                 );
                 Estimate::refused(path, unit, why)
             }
@@ -987,6 +991,10 @@ fn static_friction(
         let (before, over_n) = (values.len(), exponent.over_n(test));
         let of_run = test.fit.cycles[run.cycles.clone()].iter();
         values.extend(of_run.filter_map(|cycle| Some([value(cycle, over_n)?, test.ln_pressure])));
+        // Where few cycles show it, those are the ones that noise and the place of the samples lifted.
+        if ((values.len() - before) as f64) < MOST_SHOW * run.cycles.len() as f64 {
+            values.truncate(before);
+        }
         let count = (values.len() - before) as f64;
         let sampling = run.sampling_n / over_n;
         floor += count * sampling * sampling / if way == 0 { 2.0 } else { 1.0 };
@@ -1022,6 +1030,32 @@ pub fn zero_not_stated(fits: &[&CyclicFit]) -> Option<Notice> {
                    displacement of a spring, looks the same; state the zeros of the sensors with \
                    the mapping \"zero=first 2 s\", \"force=COLUMN - 12 N\" or \"zero=as measured\"";
     fits.iter().any(|fit| !fit.zero_known).then(|| Notice::new(NoticeKind::ZeroNotStated, message))
+}
+
+/// The doubt about a force cell that is said to be right as measured, where friction differs by direction as an
+/// offset of it makes it.
+#[must_use]
+pub fn zero_doubted(fit: &CyclicFit) -> Option<Notice> {
+    /// Least difference of both ways over their mean.
+    const LEAST: f64 = 0.04;
+    if fit.drift.is_some() {
+        return None;
+    }
+    let halves: Vec<f64> =
+        fit.cycles.iter().map(|c| 0.5 * (c.kinetic_n[0] - c.kinetic_n[1])).collect();
+    let (half, [low, high]) = mean_interval(&halves, 0.0)?;
+    let mean = fit.cycles.iter().map(Cycle::mean_kinetic_n).sum::<f64>() / halves.len() as f64;
+    let is_clear = low > 0.0 || high < 0.0;
+    (is_clear && (2.0 * half / mean).abs() > LEAST).then(|| {
+        let message = format!(
+            "friction towards +x is {:.0} % {} than towards −x, which a force cell that is off by {half:.3} N makes too: \
+             the mapping says that its zero is right as measured; if that is not known, say \"zero=first 2 s\" or leave \
+             it out",
+            100.0 * (2.0 * half / mean).abs(),
+            if half > 0.0 { "higher" } else { "lower" }
+        );
+        Notice::new(NoticeKind::SensorOffset, message)
+    })
 }
 
 /// Whether friction by direction can be told from a drift of the force.

@@ -8,16 +8,17 @@ use super::cyclic::{
 };
 use super::estimate::Estimate;
 use super::fitted::{self, PressureKeys};
-use super::free_vibration::{FreeVibration, free_vibration as fit_free_vibration};
+use super::free_vibration::{FreeVibration, Motion, free_vibration as fit_free_vibration};
 use super::measured::{Measured, MeasuredSeries};
 use super::shaking_table::{
-    Builder, Parameter, TableError, TableFit, TableTest, shaking_table as fit_table,
+    Builder, Instruments, Parameter, TableError, TableFit, TableTest, shaking_table as fit_table,
 };
 use crate::error::{ChoiceError, InputError, RecordError, listed, similar};
 use crate::input::{self, Analysis, Channel, Override};
 use crate::notice::Notice;
 use crate::study::engine::Engine;
 use crate::table::Table;
+use crate::units::Dimension;
 
 /// The text of a model and the keys that are set from outside.
 #[derive(Clone, Copy, Debug)]
@@ -393,10 +394,11 @@ fn cyclic_warnings(measured: &[Measured], fits: &[CyclicFit]) -> Vec<Notice> {
         }
     };
     let read = measured.iter().flat_map(|m| m.warnings.iter().cloned().map(move |w| (m, w)));
+    let doubt = |m: &Measured, fit| m.zero_as_measured.then(|| cyclic::zero_doubted(fit)).flatten();
     let fitted = measured
         .iter()
         .zip(fits)
-        .flat_map(|(m, fit)| fit.warnings().into_iter().map(move |w| (m, w)));
+        .flat_map(|(m, fit)| fit.warnings().into_iter().chain(doubt(m, fit)).map(move |w| (m, w)));
     read.chain(fitted).map(|(m, w)| of_file(m, w)).collect()
 }
 
@@ -423,7 +425,8 @@ pub fn cyclic(
             force_n: &force.values,
             slack_m: request.slack_m,
             spring: request.spring,
-            damper: request.damper,
+            // A lag between two clocks looks like one.
+            damper: request.damper && !measured.is_of_two_clocks,
             law: request.law,
             // An offset of the displacement is one of the force where a spring is fitted.
             zero_known: force.zero_known && (displacement.zero_known || !request.spring),
@@ -509,12 +512,20 @@ pub fn free_vibration(
         .filter(|(t, _)| inside(t))
         .map(|(t, v)| (*t, *v))
         .unzip();
-    let fit = fit_free_vibration(&times_s, &values);
-    let estimates = vec![fit.frequency.clone(), fit.damping_ratio.clone()];
+    let motion = match series.channel.dimension() {
+        Dimension::Acceleration => Motion::Acceleration,
+        Dimension::Velocity => Motion::Velocity,
+        _ => Motion::Displacement,
+    };
+    let fit = fit_free_vibration(&times_s, &values, motion);
+    // Friction is of no storey: it is told where it shows, beside what a model takes.
+    let of_model = vec![fit.frequency.clone(), fit.damping_ratio.clone()];
+    let mut estimates = of_model.clone();
+    estimates.extend(fit.friction.value().map(|_| fit.friction.clone()));
     let mut warnings = measured.warnings.clone();
     let mut model = None;
     if let Some(text) = request.model.filter(|_| fit.frequency.value().is_some()) {
-        let (analysis, decided) = text.fitted(&estimates, Vec::new())?;
+        let (analysis, decided) = text.fitted(&of_model, Vec::new())?;
         warnings.extend(decided);
         model = Some(analysis);
     }
@@ -563,6 +574,8 @@ pub struct ShakingTableRequest<'a> {
     pub fit: &'a [&'a str],
     /// Names of the quantities to fit; all that the model has if empty.
     pub using: &'a [&'a str],
+    /// What is known of the transducers, as [`Instruments::parse`] reads it.
+    pub instruments: &'a [&'a str],
     /// Seed of the random starts.
     pub seed: u64,
 }
@@ -583,12 +596,14 @@ pub fn shaking_table(
     let builder = Builder::new(text.name, text.text, text.set, &parameters);
     let build = |values: &[f64]| builder.model(values);
     let using: Result<Vec<Channel>, ChoiceError> = request.using.iter().map(used).collect();
+    let instruments = Instruments::parse(request.instruments)?;
     let test = TableTest {
         measured,
         parameters: &parameters,
         build: &build,
         start: parameters.iter().map(|p| analysis.value(&p.path)).collect(),
         using: Some(using?).filter(|using| !using.is_empty()),
+        instruments: &instruments,
         seed: request.seed,
     };
     let fit = fit_table(&test, engine)?;

@@ -2,7 +2,7 @@
 
 use crate::error::{InputError, RecordError, similar};
 use crate::input::{Channel, ColumnRef, MappedColumn, Mapping, Zero};
-use crate::notice::Notice;
+use crate::notice::{Notice, NoticeKind};
 use crate::numerics::fractile::upper_median;
 use crate::record::{self, Column, Columns, Sampling, bracket};
 use crate::units::{Dimension, Unit};
@@ -33,6 +33,10 @@ pub struct Measured {
     pub series: Vec<MeasuredSeries>,
     /// What the reader of a result must know.
     pub warnings: Vec<Notice>,
+    /// Whether the mapping says that all sensors are right as measured.
+    pub zero_as_measured: bool,
+    /// Whether displacement and force come from files with clocks of their own, which were aligned.
+    pub is_of_two_clocks: bool,
     /// Names of the file's columns, for messages.
     names: String,
 }
@@ -75,6 +79,7 @@ impl Measured {
         let mut found: Vec<(usize, MeasuredSeries)> = Vec::new();
         let mut taken = vec![false; columns.columns.len()];
         let mut time = None;
+        let mut has_unit_of_time = true;
         for entry in &mapping.columns {
             let column = find(&columns, mapping, entry, &entry.column)?;
             taken[column] = true;
@@ -104,8 +109,10 @@ impl Measured {
                 let expected = format!("one column of {}, or a mapping", channel.name());
                 return Err(columns.error(0, index + 1, expected, column.name.clone()).into());
             }
-            let values = column.values.iter().map(|value| unit.to_si(*value)).collect();
+            let values = columns.numbers(index)?.iter().map(|value| unit.to_si(*value)).collect();
             if channel == Channel::Time {
+                let stated = stated_unit(&column.name, Dimension::Time);
+                has_unit_of_time = !matches!(stated, Stated::None);
                 time = Some((index, values));
                 continue;
             }
@@ -115,7 +122,11 @@ impl Measured {
             found.push((index, MeasuredSeries { channel, origin, times_s, values, zero_known }));
         }
         let names = columns.names();
-        let (times_s, dt_s, warnings) = clock(&columns, mapping, time)?;
+        let (times_s, dt_s, mut warnings) = clock(&columns, mapping, time)?;
+        warnings.extend(columns.texts().map(|column| {
+            let message = format!("the column \"{}\" holds no numbers: left out", column.name);
+            Notice::new(NoticeKind::ColumnSkipped, message)
+        }));
         found.sort_by_key(|(column, _)| *column);
         let series = found.into_iter().map(|(_, mut series)| {
             let offset_s = mapping.get(series.channel).map_or(0.0, |entry| entry.offset_s);
@@ -142,7 +153,27 @@ impl Measured {
             }
         }
         let source_name = columns.source_name.clone();
-        Ok(Self { source_name, dt_s, series, warnings, names })
+        let zero_as_measured = mapping.zero == Zero::AsMeasured;
+        warnings.extend(doubt_of_seconds(has_unit_of_time, &times_s));
+        let is_of_two_clocks = false;
+        Ok(Self { source_name, dt_s, series, warnings, zero_as_measured, is_of_two_clocks, names })
+    }
+
+    /// Whether a file has the column of an entry.
+    pub(super) fn has(columns: &Columns, mapping: &Mapping, entry: &MappedColumn) -> bool {
+        find(columns, mapping, entry, &entry.column).is_ok()
+    }
+
+    /// With the quantities of another file of the same test, those that are not there yet.
+    #[must_use]
+    pub(super) fn beside(mut self, other: Self) -> Self {
+        let known: Vec<Channel> = self.series.iter().map(|series| series.channel).collect();
+        self.series.extend(other.series.into_iter().filter(|s| !known.contains(&s.channel)));
+        self.warnings.extend(other.warnings);
+        self.source_name = format!("{} + {}", self.source_name, other.source_name);
+        self.names = format!("{}, {}", self.names, other.names);
+        self.dt_s = self.dt_s.filter(|dt_s| other.dt_s == Some(*dt_s));
+        self
     }
 
     /// Number of samples of the longest quantity.
@@ -231,9 +262,9 @@ fn mapped(
     entry: &MappedColumn,
     column: usize,
     minus: Option<usize>,
-) -> Result<MeasuredSeries, InputError> {
+) -> Result<MeasuredSeries, MeasuredError> {
     let dimension = entry.channel.dimension();
-    let in_si = |index: usize| -> Result<(Vec<f64>, &'static Unit), InputError> {
+    let in_si = |index: usize| -> Result<(Vec<f64>, &'static Unit), MeasuredError> {
         let column = &columns.columns[index];
         let stated = stated_unit(&column.name, dimension);
         let unit = match (entry.unit, stated) {
@@ -243,7 +274,8 @@ fn mapped(
                     column.name,
                     stated.name()
                 );
-                return Err(mapping.error_at(entry, expected, format!("\"{}\"", given.name())));
+                let found = format!("\"{}\"", given.name());
+                return Err(mapping.error_at(entry, expected, found).into());
             }
             (None, Stated::Other(other)) => {
                 let expected = format!(
@@ -251,7 +283,8 @@ fn mapped(
                     dimension.name(),
                     dimension.si_unit()
                 );
-                return Err(mapping.error_at(entry, expected, format!("the unit \"{other}\"")));
+                let found = format!("the unit \"{other}\"");
+                return Err(mapping.error_at(entry, expected, found).into());
             }
             (Some(given), _) => given,
             (None, Stated::Unit(stated)) => stated,
@@ -261,10 +294,10 @@ fn mapped(
                     column.name,
                     dimension.si_unit()
                 );
-                return Err(mapping.error_at(entry, expected, "none".to_owned()));
+                return Err(mapping.error_at(entry, expected, "none".to_owned()).into());
             }
         };
-        Ok((column.values.iter().map(|value| unit.to_si(*value)).collect(), unit))
+        Ok((columns.numbers(index)?.iter().map(|value| unit.to_si(*value)).collect(), unit))
     };
     let (mut values, unit) = in_si(column)?;
     let name = &columns.columns[column].name;
@@ -421,6 +454,21 @@ fn clock(
     })
 }
 
+/// The doubt about times without a unit whose steps are whole and long: milliseconds look so.
+fn doubt_of_seconds(has_unit: bool, times_s: &[f64]) -> Option<Notice> {
+    /// Steps in s from which on times without a unit are doubted.
+    const LONG_STEP_S: f64 = 0.5;
+    let step_s = upper_median(times_s.windows(2).map(|t| t[1] - t[0]))?;
+    let is_whole = times_s.iter().all(|t| t.fract() == 0.0);
+    (!has_unit && step_s >= LONG_STEP_S && is_whole).then(|| {
+        let message = format!(
+            "the samples are {step_s} s apart, if the times, which state no unit, are seconds; of milliseconds \
+             say so with the mapping \"time=COLUMN [ms]\""
+        );
+        Notice::new(NoticeKind::LongStep, message)
+    })
+}
+
 /// The row after the first gap, and the usual step: where nine of ten steps agree to a hundredth
 /// (or to the last decimal of the times), one that is half as long again is a gap.
 fn gap(times_s: &[f64]) -> Option<(usize, f64)> {
@@ -553,6 +601,33 @@ mod tests {
         let below = found("time,displacement,force\ns,mm,kN\n").unwrap();
         assert!(once.series == twice.series && below.get(Channel::Force).is_some(), "{below:?}");
         assert!(found(&format!("Test 3\n{stated}")).is_ok());
+    }
+
+    /// Milliseconds called seconds make a rate of friction a thousand times too low.
+    #[test]
+    fn milliseconds_without_a_unit_are_doubted() {
+        let rows = |step: usize| -> String {
+            (0..50).map(|i| format!("{},{}\n", step * i, i % 7)).collect()
+        };
+        let kinds = |header: &str| -> Vec<NoticeKind> {
+            let measured = read(&format!("{header}\n{}", rows(5)), &[]).unwrap();
+            measured.warnings.iter().map(|warning| warning.kind).collect()
+        };
+        assert_eq!(kinds("Time,force_n"), [NoticeKind::LongStep]);
+        for header in ["Time (s),force_n", "time_ms,force_n", "time_s,force_n"] {
+            assert_eq!(kinds(header), [], "{header}");
+        }
+    }
+
+    /// A column of remarks is left out, and that is said; a fault matters where its column is used.
+    #[test]
+    fn columns_of_text_are_left_out() {
+        let text = "time_s,operator,force_n,temperature (C)\n0,A. B.,1,20\n0.01,A. B.,2,n/a\n";
+        let measured = read(text, &[]).unwrap();
+        assert_eq!(measured.get(Channel::Force).unwrap().values, [1.0, 2.0]);
+        assert_eq!(measured.warnings[0].kind, NoticeKind::ColumnSkipped);
+        let error = read(&text.replace(",2,", ",,"), &[]).unwrap_err();
+        assert!(error.starts_with("m.csv:3:12: expected a finite number"), "{error}");
     }
 
     #[test]

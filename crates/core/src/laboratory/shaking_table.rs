@@ -7,23 +7,30 @@
 //! memory is as long as measured: the rise of the sum of squares that is allowed is multiplied by
 //! their correlation length.
 //!
-//! A sensor of displacement or force whose zero is not stated may be off by any constant: that is
-//! fitted with the rest. The table acceleration drives the model, so its noise, and what happens
-//! between its samples, move the estimates and widen the intervals (`drive`).
+//! What transducers do to what they measure, gain, lag, zero and drift, is fitted with the rest and widens the
+//! intervals ([`Instruments`]). The table acceleration drives the model, so its noise, and what happens
+//! between its samples, move the estimates and widen the intervals too (`drive`). What the model leaves is
+//! looked at: residuals above the stated noise, or with a memory that noise does not have, are no noise.
 
+mod covariance;
 mod drive;
+mod instruments;
 mod parameter;
+mod remarks;
 
-use core::cell::Cell;
+use core::cell::{Cell, RefCell};
 
+pub use covariance::Covariance;
+pub use instruments::{Instrument, Instruments};
+use instruments::{Remainder, Seen};
 pub use parameter::{Builder, Parameter};
 
 use super::compare::{self, CompareError, Comparison};
 use super::estimate::{Estimate, correlation_length};
 use super::fit::{Interval, Minimum, Problem, Profile, global, profile, refine};
-use super::measured::{Measured, MeasuredSeries};
+use super::measured::Measured;
 use super::metrics::rms;
-use crate::error::{RecordError, Stopped};
+use crate::error::{ChoiceError, RecordError, Stopped};
 use crate::input::Channel;
 use crate::model::Model;
 use crate::motion::GroundMotion;
@@ -33,6 +40,7 @@ use crate::response::Method;
 use crate::slider::Friction;
 use crate::solver;
 use crate::study::engine::Engine;
+use crate::units::Dimension;
 
 /// How much better than stuck a sliding response must fit before anything is said of the slider, in
 /// variances.
@@ -41,6 +49,14 @@ const CLEAR_SLIDING: f64 = 25.0;
 const MOST_TURNS: usize = 20;
 /// Residuals that each parameter must have.
 const LEAST_RESIDUALS: usize = 10;
+/// Fits after each of which residuals are weighed anew and lags move, at most.
+const MOST_SCALES: usize = 8;
+/// How near in samples a jump of the response is known: the table moves between its samples as it likes.
+const JUMP_REACH: f64 = 0.1;
+/// Standard deviation of the lag of a quantity that jumps, in samples.
+const JUMP_PLACE: f64 = 0.03;
+/// Lags to either side that are looked at, at most.
+const MOST_LAGS: i32 = 400;
 
 /// A record to be fitted.
 pub struct TableTest<'a> {
@@ -54,6 +70,8 @@ pub struct TableTest<'a> {
     pub start: Option<Vec<f64>>,
     /// Quantities to fit; `None`: all that the model has.
     pub using: Option<Vec<Channel>>,
+    /// What is known of the transducers.
+    pub instruments: &'a Instruments,
     /// Seed of the global start.
     pub seed: u64,
 }
@@ -77,15 +95,39 @@ pub struct TableFit {
     pub sliding_evidence: f64,
     /// Fitted offsets of sensors whose zero is not stated: measured less true, in SI.
     pub offsets: Vec<(Channel, f64)>,
+    /// What the transducers were found to do, such as `block_acceleration.gain`, where it was not known.
+    pub instruments: Vec<Estimate>,
+    /// Predicted less measured values, corrected for the transducers, a list a quantity, in SI, and their
+    /// times in s from the start of the table acceleration.
+    pub residuals: Vec<Residuals>,
+    /// The covariance of the parameters, and of what was found of the transducers; `None` where the derivatives
+    /// do not determine it.
+    pub covariance: Option<Covariance>,
     /// Standard deviation of the noise of the table acceleration, in m/s².
     pub table_noise_m_per_s2: f64,
     /// What a reader must know.
     pub warnings: Vec<Notice>,
 }
 
+/// What the best values leave of one quantity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Residuals {
+    /// The quantity.
+    pub channel: Channel,
+    /// Times in s from the start of the table acceleration, as the file has them.
+    pub times_s: Vec<f64>,
+    /// Predicted less measured, in SI.
+    pub values: Vec<f64>,
+    /// How many samples one independent sample is worth.
+    pub correlation_length: f64,
+}
+
 /// Why nothing was fitted.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TableError {
+    /// What is said of the transducers.
+    #[error(transparent)]
+    Choice(#[from] ChoiceError),
     /// The file lacks a quantity.
     #[error(transparent)]
     Measured(#[from] RecordError),
@@ -128,10 +170,20 @@ pub fn shaking_table(test: &TableTest, engine: &Engine<'_>) -> Result<TableFit, 
 fn fit(test: &TableTest, engine: &Engine<'_>) -> Result<TableFit, TableError> {
     let (motion, start_s) = compare::table_motion(test.measured)?;
     let chosen = chosen(test)?;
-    let free: Vec<bool> = chosen.series.iter().map(has_free_zero).collect();
-    let runs = Cell::new(0);
-    let (build, measured) = (test.build, &chosen);
-    let data = Data { motion: &motion, start_s, measured, free, build, engine, runs };
+    let table_gain = test.instruments.table_gain()?;
+    let instruments = chosen.series.iter().map(|series| test.instruments.of(series));
+    let instruments: Vec<Instrument> = instruments.collect::<Result<_, _>>()?;
+    let data = Data {
+        motion: &motion,
+        start_s,
+        measured: &chosen,
+        lags_s: RefCell::new(vec![0.0; instruments.len()]),
+        instruments,
+        weight: Cell::new(1.0),
+        build: test.build,
+        engine,
+        runs: Cell::new(0),
+    };
     let count = test.parameters.len() as u64;
     engine.plan(RUNS.iter().sum::<u64>() * count);
     let known = |stage: usize| engine.replan(RUNS[stage] * count, data.runs.take());
@@ -141,14 +193,24 @@ fn fit(test: &TableTest, engine: &Engine<'_>) -> Result<TableFit, TableError> {
     };
     let no_response = || TableError::NoResponse { parameters: names() };
     let bounds: Vec<[f64; 2]> = test.parameters.iter().map(|p| [p.low, p.high]).collect();
-    // First each quantity over its own size, then over what the fit leaves of it.
+    // First each quantity over its own size, then over what the fit leaves of it; lags move to where the
+    // response shows them.
     let mut scales: Vec<f64> = chosen.series.iter().map(|s| rms(&s.values).max(1e-300)).collect();
     let mut minimum: Option<Minimum> = None;
-    for _ in 0..4 {
+    let mut settled_once = data.instruments.iter().all(|instrument| instrument.lag_s == 0.0);
+    let mut look_again = false;
+    for turn in 0..MOST_SCALES {
         let residuals = |p: &[f64]| data.residuals(p, &scales);
         let problem = Problem { bounds: bounds.clone(), residuals: &residuals };
         let found = match &minimum {
             None => global(&problem, test.start.as_deref(), test.seed),
+            // The first search was made without lags: it may have ended in another valley.
+            Some(minimum) if look_again => {
+                let start = problem.parameters(&minimum.unit);
+                let refined = refine(&problem, &minimum.unit);
+                let again = global(&problem, Some(&start), test.seed);
+                [refined, again].into_iter().flatten().min_by(|a, b| a.sse.total_cmp(&b.sse))
+            }
             Some(minimum) => refine(&problem, &minimum.unit),
         };
         let found = found.ok_or_else(no_response)?;
@@ -158,28 +220,38 @@ fn fit(test: &TableTest, engine: &Engine<'_>) -> Result<TableFit, TableError> {
             return Err(TableError::TooShort { parameters: names(), expected, found });
         }
         let values = problem.parameters(&found.unit);
-        let left = data.by_quantity(&values).ok_or_else(no_response)?;
+        let model = (test.build)(&values).ok_or_else(no_response)?;
+        let finely = turn > 0;
+        if !settled_once || turn == 0 {
+            data.look_for_lags(&model, &scales, finely).ok_or_else(no_response)?;
+        }
+        let left = data.of_model(&model, &scales).ok_or_else(no_response)?;
+        let moved = data.move_lags(&left);
         let next: Vec<f64> = left
             .iter()
             .zip(&chosen.series)
             // A fit without noise is weighed by the last digits of the size.
-            .map(|(left, series)| rms(left).max(1e-9 * rms(&series.values)).max(1e-300))
+            .map(|(left, series)| rms(&left.left).max(1e-9 * rms(&series.values)).max(1e-300))
             .collect();
         let settled = next.iter().zip(&scales).all(|(a, b)| (a / b - 1.0).abs() < 0.01);
         minimum = Some(found);
         scales = next;
-        if settled {
+        data.weight.set(memory(&left));
+        if settled_once && settled && !moved {
             break;
         }
+        look_again = !settled_once && settled && !moved;
+        settled_once |= look_again;
     }
     known(0);
     let residuals = |p: &[f64]| data.residuals(p, &scales);
     let problem = Problem { bounds, residuals: &residuals };
     let minimum = minimum.and_then(|minimum| refine(&problem, &minimum.unit));
-    let mut found = intervals(&problem, &data, minimum.ok_or_else(no_response)?);
+    let mut found = intervals(&problem, &data, &scales, minimum.ok_or_else(no_response)?);
     known(1);
     let table_noise_m_per_s2 = drive::noise(&motion);
-    drive::widen(&mut found, &problem, &data, &scales, table_noise_m_per_s2, test.seed);
+    let of_table = drive::OfTable { noise_m_per_s2: table_noise_m_per_s2, gain: table_gain };
+    drive::widen(&mut found, &problem, &data, &scales, of_table, test.seed);
     known(2);
     let values = problem.parameters(&found.minimum.unit);
     let model = (test.build)(&values).ok_or_else(no_response)?;
@@ -198,18 +270,27 @@ fn fit(test: &TableTest, engine: &Engine<'_>) -> Result<TableFit, TableError> {
         });
         estimate(parameter, values[index], found.intervals[index], kinetic, slides)
     });
-    let estimates = estimates.collect();
-    let comparison = compare::compare(test.measured, &model, Method::Exact)?;
-    let noise = chosen.series.iter().map(|s| s.channel).zip(scales.iter().copied()).collect();
-    let raw = data.of_motion(&model, &motion).ok_or_else(no_response)?;
-    let offsets: Vec<(Channel, f64)> = raw
+    let estimates: Vec<Estimate> = estimates.collect();
+    let left = data.of_model(&model, &scales).ok_or_else(no_response)?;
+    let paths: Vec<&str> = test.parameters.iter().map(|p| p.path.as_str()).collect();
+    let covariance = Covariance::new(&paths, &found, &problem, &data, &scales);
+    let instruments = data.found_of_instruments(&left, covariance.as_ref());
+    let corrected = data.corrected(test.measured, &left);
+    let comparison = compare::compare(&corrected, &model, Method::Exact)?;
+    let noise: Vec<(Channel, f64)> =
+        chosen.series.iter().map(|s| s.channel).zip(scales.iter().copied()).collect();
+    let offsets: Vec<(Channel, f64)> = data
+        .instruments
         .iter()
         .zip(&chosen.series)
-        .zip(&data.free)
-        .filter(|(_, free)| **free)
-        .map(|((left, series), _)| (series.channel, -mean(left)))
+        .zip(&left)
+        .filter(|((instrument, _), _)| instrument.zero > 0.0)
+        .map(|((_, series), left)| (series.channel, left.found[2]))
         .collect();
-    let mut warnings = warnings(&raw, &chosen, &offsets, found.length);
+    let residuals = data.residuals_of(&model, &left).ok_or_else(no_response)?;
+    let mut warnings = remarks::of_sensors(&left, &data, found.length);
+    warnings.extend(remarks::of_instruments(&instruments));
+    warnings.extend(remarks::of_residuals(&residuals, &data));
     let tilted = test.parameters.iter().any(|parameter| parameter.path == "slider.tilt");
     let table = test.measured.series.iter().find(|s| s.channel == Channel::TableAcceleration);
     if tilted && table.is_some_and(|series| !series.zero_known) {
@@ -226,66 +307,17 @@ fn fit(test: &TableTest, engine: &Engine<'_>) -> Result<TableFit, TableError> {
         correlation_length: found.length,
         sliding_evidence: evidence,
         offsets,
+        instruments,
+        residuals,
+        covariance,
         table_noise_m_per_s2,
         warnings,
     })
 }
 
-/// Whether the zero of a sensor is to be fitted.
-fn has_free_zero(series: &MeasuredSeries) -> bool {
-    let by_kind = matches!(
-        series.channel,
-        Channel::SlidingDisplacement | Channel::StoreyDisplacement(_) | Channel::FrictionForce
-    );
-    by_kind && !series.zero_known
-}
-
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len().max(1) as f64
-}
-
-/// Offsets and drifts that are clear of what chance makes of the residuals.
-fn warnings(
-    raw: &[Vec<f64>],
-    measured: &Measured,
-    offsets: &[(Channel, f64)],
-    length: f64,
-) -> Vec<Notice> {
-    const CLEAR: f64 = 5.0;
-    let mut all = Vec::new();
-    for (left, series) in raw.iter().zip(&measured.series) {
-        let n = left.len() as f64;
-        let independent = (n / length).max(2.0);
-        let (name, unit) = (series.channel.name(), series.channel.dimension().si_unit());
-        let middle = mean(left);
-        let deviation = (left.iter().map(|r| (r - middle) * (r - middle)).sum::<f64>() / n).sqrt();
-        let offset = offsets.iter().find(|(channel, _)| *channel == series.channel);
-        if let Some((_, offset)) = offset
-            && offset.abs() > CLEAR * deviation / independent.sqrt()
-        {
-            let message = format!(
-                "the sensor of {name} is off by {offset:.4e} {unit}, which was fitted with the rest: \
-                 the mapping \"{name}=… - {offset:.4e} {unit}\" or \"zero=first 2 s\" states its zero"
-            );
-            all.push(Notice::new(NoticeKind::SensorOffset, message));
-        }
-        if series.channel != Channel::FrictionForce {
-            continue;
-        }
-        // A slope over the record, the time running from −1 to 1.
-        let t = |i: usize| 2.0 * i as f64 / (n - 1.0) - 1.0;
-        let square: f64 = (0..left.len()).map(|i| t(i) * t(i)).sum();
-        let slope = -left.iter().enumerate().map(|(i, r)| t(i) * r).sum::<f64>() / square;
-        if slope.abs() > CLEAR * deviation * (length / square).sqrt() {
-            let message = format!(
-                "the measured {name} drifts by {:.4e} {unit} over the record: the zero of the force \
-                 cell moves",
-                2.0 * slope
-            );
-            all.push(Notice::new(NoticeKind::ForceDrift, message));
-        }
-    }
-    all
+/// How many samples one independent sample is worth, at most of all quantities.
+fn memory(left: &[Remainder]) -> f64 {
+    left.iter().map(|left| correlation_length(&left.left)).fold(1.0, f64::max)
 }
 
 /// The measured quantities to fit.
@@ -319,8 +351,12 @@ struct Data<'a> {
     motion: &'a GroundMotion,
     start_s: f64,
     measured: &'a Measured,
-    /// Of which quantities the zero is fitted.
-    free: Vec<bool>,
+    /// What is not known of the transducer of each quantity.
+    instruments: Vec<Instrument>,
+    /// The lag in s about which each of them is linear.
+    lags_s: RefCell<Vec<f64>>,
+    /// How much the squares of what is said of transducers count: as many samples as one independent one is worth.
+    weight: Cell<f64>,
     build: &'a dyn Fn(&[f64]) -> Option<Model>,
     engine: &'a Engine<'a>,
     /// Runs that were not yet told of to those who wait.
@@ -331,49 +367,244 @@ struct Data<'a> {
 /// parameter, for those who wait.
 const RUNS: [u64; 3] = [200, 600, 2000];
 
+/// What a transducer sees of a response, and what it shows.
+struct Sight {
+    seen: Seen,
+    times_s: Vec<f64>,
+    measured: Vec<f64>,
+}
+
 impl Data<'_> {
-    /// Predicted less measured values, a list a quantity, in SI; less their mean where the zero of the
-    /// sensor is fitted, which is its best value.
-    fn of_model(&self, model: &Model) -> Option<Vec<Vec<f64>>> {
-        Some(centred(self.of_motion(model, self.motion)?, &self.free))
+    /// What is left of each quantity.
+    fn of_model(&self, model: &Model, scales: &[f64]) -> Option<Vec<Remainder>> {
+        self.remainders(&self.sights(model, self.motion)?, None, scales)
     }
 
-    /// Predicted less measured values under a motion.
-    fn of_motion(&self, model: &Model, motion: &GroundMotion) -> Option<Vec<Vec<f64>>> {
+    /// What the transducers see of the response under a motion, about the lags that they have now.
+    fn sights(&self, model: &Model, motion: &GroundMotion) -> Option<Vec<Sight>> {
         self.engine.done(1).ok()?;
         self.runs.set(self.runs.get() + 1);
         let response = solver::exact(model, motion).ok()?;
-        let pairs = compare::pairs(self.measured, self.start_s, response.history.as_ref()?);
-        let all = pairs.len() == self.measured.series.len();
-        let left = |pair: &compare::Pair| {
-            pair.predicted.iter().zip(&pair.measured).map(|(p, m)| p - m).collect()
+        let history = response.history.as_ref()?;
+        let pairs = compare::pairs(self.measured, self.start_s, history);
+        if pairs.len() != self.measured.series.len() {
+            return None;
+        }
+        let lags_s = self.lags_s.borrow();
+        let sight = |(pair, (instrument, lag_s)): (compare::Pair, (&Instrument, &f64))| {
+            let compare::Pair { channel, times_s, measured, predicted, .. } = pair;
+            let at = |late_s: f64| {
+                let times_s: Vec<f64> = times_s.iter().map(|t| t - late_s).collect();
+                compare::predicted(channel, history, &times_s)
+            };
+            let values = if *lag_s == 0.0 { predicted } else { at(*lag_s)? };
+            let rates = if instrument.lag_s > 0.0 {
+                let half_s = 0.5 * step_s(&times_s);
+                let (late, early) = (at(lag_s + half_s)?, at(lag_s - half_s)?);
+                early.iter().zip(&late).map(|(b, a)| (b - a) / (2.0 * half_s)).collect()
+            } else {
+                Vec::new()
+            };
+            let about = if instrument.lag_s > 0.0 && jumps(channel) {
+                let reach_s = JUMP_REACH * step_s(&times_s);
+                let (early, late) = (at(lag_s + reach_s)?, at(lag_s - reach_s)?);
+                let about =
+                    |((a, b), c): ((&f64, &f64), &f64)| [a.min(*b).min(*c), a.max(*b).max(*c)];
+                early.iter().zip(&late).zip(&values).map(about).collect()
+            } else {
+                Vec::new()
+            };
+            Some(Sight { seen: Seen { values, rates, about }, times_s, measured })
         };
-        all.then(|| pairs.iter().map(left).collect())
+        pairs.into_iter().zip(self.instruments.iter().zip(lags_s.iter())).map(sight).collect()
     }
 
-    fn by_quantity(&self, parameters: &[f64]) -> Option<Vec<Vec<f64>>> {
-        self.of_model(&(self.build)(parameters)?)
+    /// What the best unknowns of the transducers leave of what was measured, or of other values in its place.
+    fn remainders(
+        &self,
+        sights: &[Sight],
+        targets: Option<&[Vec<f64>]>,
+        scales: &[f64],
+    ) -> Option<Vec<Remainder>> {
+        let lags_s = self.lags_s.borrow();
+        let of = |(index, sight): (usize, &Sight)| {
+            let target = targets.map_or(&sight.measured, |targets| &targets[index]);
+            let (scale, weight) = (scales[index], self.weight.get());
+            self.instruments[index].remainder(&sight.seen, target, lags_s[index], scale, weight)
+        };
+        sights.iter().enumerate().map(of).collect()
     }
 
     fn residuals(&self, parameters: &[f64], scales: &[f64]) -> Option<Vec<f64>> {
-        let lists = self.by_quantity(parameters)?;
-        Some(weighed(&lists, scales))
+        Some(weighed(&self.of_model(&(self.build)(parameters)?, scales)?, scales))
+    }
+
+    /// Sets each lag that is not known to where the response shows it best: over three of its standard
+    /// deviations to either side and a tenth of the record at most; or finely, over a sample to either side of
+    /// where it is, since a jump stands at one sample or at the next.
+    fn look_for_lags(&self, model: &Model, scales: &[f64], finely: bool) -> Option<()> {
+        if self.instruments.iter().all(|instrument| instrument.lag_s == 0.0) {
+            return Some(());
+        }
+        self.engine.done(1).ok()?;
+        let response = solver::exact(model, self.motion).ok()?;
+        let history = response.history.as_ref()?;
+        let pairs = compare::pairs(self.measured, self.start_s, history);
+        for (index, pair) in pairs.iter().enumerate().take(self.instruments.len()) {
+            let instrument = &self.instruments[index];
+            if instrument.lag_s == 0.0 {
+                continue;
+            }
+            let duration_s = pair.times_s.last()? - pair.times_s.first()?;
+            let sample_s = step_s(&pair.times_s);
+            let (step_s, middle_s, most) = if finely {
+                (sample_s / 20.0, self.lags_s.borrow()[index], 20)
+            } else {
+                let most_s = (3.0 * instrument.lag_s).min(0.1 * duration_s);
+                (0.5 * sample_s, 0.0, (most_s / (0.5 * sample_s)) as i32)
+            };
+            let without = Instrument { lag_s: 0.0, ..*instrument };
+            let mut best = (f64::INFINITY, 0.0);
+            for k in -most.min(MOST_LAGS)..=most.min(MOST_LAGS) {
+                let lag_s = middle_s + f64::from(k) * step_s;
+                let times_s: Vec<f64> = pair.times_s.iter().map(|t| t - lag_s).collect();
+                let values = compare::predicted(pair.channel, history, &times_s)?;
+                let seen = Seen { values, rates: Vec::new(), about: Vec::new() };
+                let left = without.remainder(&seen, &pair.measured, 0.0, scales[index], 1.0)?;
+                let sse: f64 = left.left.iter().map(|r| r * r).sum();
+                if sse < best.0 {
+                    best = (sse, lag_s);
+                }
+            }
+            self.lags_s.borrow_mut()[index] = best.1;
+        }
+        Some(())
+    }
+
+    /// Moves the lags to where the last fit found them; whether one moved by more than a twentieth of a step.
+    fn move_lags(&self, left: &[Remainder]) -> bool {
+        let mut moved = false;
+        let mut lags_s = self.lags_s.borrow_mut();
+        for (index, instrument) in self.instruments.iter().enumerate() {
+            let [gain, late, ..] = left[index].found;
+            if instrument.lag_s == 0.0 || !(gain > 0.1) {
+                continue;
+            }
+            let step_s = self.measured.series.get(index).map_or(0.0, |s| step_s(&s.times_s));
+            // The line holds over a sample or two.
+            let by_s = (late / gain).clamp(-2.0 * step_s, 2.0 * step_s);
+            let most_s = 5.0 * instrument.lag_s;
+            let next_s = (lags_s[index] + by_s).clamp(-most_s, most_s);
+            moved |= (next_s - lags_s[index]).abs() > 0.05 * step_s;
+            lags_s[index] = next_s;
+        }
+        moved
+    }
+
+    /// What was found of the transducers, with its intervals.
+    fn found_of_instruments(
+        &self,
+        left: &[Remainder],
+        covariance: Option<&Covariance>,
+    ) -> Vec<Estimate> {
+        let lags_s = self.lags_s.borrow();
+        let mut all = Vec::new();
+        for (index, series) in self.measured.series.iter().enumerate() {
+            let unit = series.channel.dimension().si_unit();
+            let [gain, late, zero, drift] = left[index].found;
+            let deviations = self.instruments[index].nominal(0.0).map(|[_, deviation]| deviation);
+            let values = [gain, lags_s[index] + late / gain, zero, drift];
+            for (k, (name, unit)) in [("gain", ""), ("lag", "s"), ("zero", unit), ("drift", unit)]
+                .into_iter()
+                .enumerate()
+            {
+                if deviations[k] == 0.0 {
+                    continue;
+                }
+                let path = format!("{}.{name}", series.channel.name());
+                let half = covariance.and_then(|covariance| covariance.half_width(&path));
+                all.push(match half {
+                    Some(half) => {
+                        let half = match k {
+                            1 => libm::hypot(half / gain, of_jumps_s(series)),
+                            _ => half,
+                        };
+                        Estimate::determined(
+                            path,
+                            unit,
+                            values[k],
+                            [values[k] - half, values[k] + half],
+                        )
+                    }
+                    None => Estimate::refused(path, unit, "the derivatives do not determine it"),
+                });
+            }
+        }
+        all
+    }
+
+    /// What was measured without what the transducers were found to do.
+    fn corrected(&self, measured: &Measured, left: &[Remainder]) -> Measured {
+        let mut corrected = measured.clone();
+        let lags_s = self.lags_s.borrow();
+        for (index, fitted) in self.measured.series.iter().enumerate() {
+            let instrument = &self.instruments[index];
+            let known = instrument.nominal(0.0).iter().all(|[_, deviation]| *deviation == 0.0);
+            let [gain, late, zero, drift] = left[index].found;
+            let of =
+                |series: &&mut super::measured::MeasuredSeries| series.channel == fitted.channel;
+            let Some(series) = corrected.series.iter_mut().find(of).filter(|_| !known) else {
+                continue;
+            };
+            let count = series.values.len();
+            for (i, value) in series.values.iter_mut().enumerate() {
+                *value = (*value - zero - drift * instruments::place(i, count)) / gain;
+            }
+            let lag_s = lags_s[index] + late / gain;
+            series.times_s.iter_mut().for_each(|t| *t -= lag_s);
+            series.origin.push_str(", corrected by what the fit found of its sensor");
+        }
+        corrected
+    }
+
+    /// What is left of each quantity, with its times.
+    fn residuals_of(&self, model: &Model, left: &[Remainder]) -> Option<Vec<Residuals>> {
+        let sights = self.sights(model, self.motion)?;
+        let of =
+            |((sight, left), series): ((Sight, &Remainder), &super::measured::MeasuredSeries)| {
+                Residuals {
+                    channel: series.channel,
+                    times_s: sight.times_s,
+                    correlation_length: correlation_length(&left.left),
+                    values: left.left.clone(),
+                }
+            };
+        Some(sights.into_iter().zip(left).zip(&self.measured.series).map(of).collect())
     }
 }
 
-/// Residuals less their mean where the zero of the sensor is fitted.
-fn centred(mut lists: Vec<Vec<f64>>, free: &[bool]) -> Vec<Vec<f64>> {
-    for (list, _) in lists.iter_mut().zip(free).filter(|(_, free)| **free) {
-        let mean = mean(list);
-        list.iter_mut().for_each(|r| *r -= mean);
-    }
-    lists
+/// Half of what the lag of a quantity that jumps is not known by, in s: when between two samples it jumped hardly
+/// shows.
+fn of_jumps_s(series: &super::measured::MeasuredSeries) -> f64 {
+    if jumps(series.channel) { 2.0 * JUMP_PLACE * step_s(&series.times_s) } else { 0.0 }
 }
 
-fn weighed(lists: &[Vec<f64>], scales: &[f64]) -> Vec<f64> {
-    let weigh =
-        |(list, scale): (&Vec<f64>, &f64)| list.iter().map(|r| r / scale).collect::<Vec<f64>>();
-    lists.iter().zip(scales).flat_map(weigh).collect()
+/// Whether a quantity jumps where a block breaks away or stops.
+fn jumps(channel: Channel) -> bool {
+    !matches!(channel.dimension(), Dimension::Length | Dimension::Velocity)
+}
+
+/// The mean step of some times in s.
+fn step_s(times_s: &[f64]) -> f64 {
+    let span_s = times_s.last().zip(times_s.first()).map_or(0.0, |(last, first)| last - first);
+    span_s / (times_s.len().max(2) - 1) as f64
+}
+
+/// Residuals over the standard deviation of each quantity, then what is said of the transducers.
+fn weighed(left: &[Remainder], scales: &[f64]) -> Vec<f64> {
+    let values = left.iter().zip(scales);
+    let values = values.flat_map(|(left, scale)| left.left.iter().map(move |r| r / scale));
+    values.chain(left.iter().flat_map(|left| left.priors.iter().copied())).collect()
 }
 
 struct Fitted {
@@ -384,18 +615,19 @@ struct Fitted {
 }
 
 /// Intervals of all parameters, from the best minimum that turns up on the way.
-fn intervals(problem: &Problem, data: &Data, minimum: Minimum) -> Fitted {
+fn intervals(problem: &Problem, data: &Data, scales: &[f64], minimum: Minimum) -> Fitted {
     let mut minimum = minimum;
     let count = problem.bounds.len();
     let mut found = Vec::new();
     let (mut length, mut variance) = (1.0, 1.0);
     for _ in 0..MOST_TURNS {
         let values = problem.parameters(&minimum.unit);
-        let lists = data.by_quantity(&values).unwrap_or_default();
-        let lengths = lists.iter().map(|list| correlation_length(list));
-        length = lengths.fold(1.0, f64::max);
-        let zeros = data.free.iter().filter(|free| **free).count();
-        let freedom = minimum.count.saturating_sub(count + lists.len() + zeros).max(1) as f64;
+        let left = (data.build)(&values).and_then(|model| data.of_model(&model, scales));
+        let left = left.unwrap_or_default();
+        length = memory(&left);
+        // What is said of a transducer is a residual, and it takes one away.
+        let unknowns = left.iter().map(|left| left.priors.len()).sum::<usize>();
+        let freedom = minimum.count.saturating_sub(count + left.len() + unknowns).max(1) as f64;
         variance = (minimum.sse / freedom).max(1e-24);
         let t = student_quantile(0.95, freedom);
         let better: Cell<Option<Minimum>> = Cell::new(None);
@@ -422,9 +654,9 @@ fn intervals(problem: &Problem, data: &Data, minimum: Minimum) -> Fitted {
 fn evidence(data: &Data, model: &Model, scales: &[f64], found: &Fitted) -> f64 {
     const HOLDS: f64 = 1e6;
     let Ok(friction) = Friction::new(HOLDS, HOLDS) else { return 0.0 };
-    let stuck = data.of_model(&model.with_friction(friction));
+    let stuck = data.of_model(&model.with_friction(friction), scales);
     let sse: f64 = match stuck {
-        Some(lists) => weighed(&lists, scales).iter().map(|r| r * r).sum(),
+        Some(left) => weighed(&left, scales).iter().map(|r| r * r).sum(),
         None => return f64::INFINITY,
     };
     (sse - found.minimum.sse) / (found.variance * found.length)

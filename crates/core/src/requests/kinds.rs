@@ -421,6 +421,13 @@ const SHAKING_TABLE: &[Field] = &[
         "Measured quantities to fit; all if left out",
     )
     .many(),
+    Field::new(
+        "instrument",
+        "[QUANTITY.]WHAT=DEVIATION",
+        "What is not known of the sensors, standard deviations: gain=5 %, lag=20 ms, of one quantity also zero, \
+         drift and noise (\"sliding_displacement.drift=1 mm\"); 0 is known, exact is all known; may be repeated",
+    )
+    .many(),
     Field::new("seed", "SEED", "Seed of the random starts").or("1"),
     MAPPING,
 ];

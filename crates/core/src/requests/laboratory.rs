@@ -72,7 +72,14 @@ impl Request {
                 let model =
                     model.ok_or_else(|| wrong("model", "a model whose keys are fitted", ""))?;
                 let seed = self.seed()?;
-                let request = ShakingTableRequest { model, fit: &fit, using: &using, seed };
+                let instruments = self.listed("instrument");
+                let request = ShakingTableRequest {
+                    model,
+                    fit: &fit,
+                    using: &using,
+                    instruments: &instruments,
+                    seed,
+                };
                 shaking_table(&request, first, engine)
             }
             kind => {

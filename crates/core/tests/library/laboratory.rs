@@ -10,10 +10,12 @@ use serde_json::Value;
 use slipstick::input::{self, Channel, Mapping};
 use slipstick::laboratory::anderson::anderson;
 use slipstick::laboratory::cyclic::{CyclicTest, KineticLaw, cyclic, estimates};
-use slipstick::laboratory::free_vibration::free_vibration;
+use slipstick::laboratory::free_vibration::{Motion, free_vibration};
 use slipstick::laboratory::measured::Measured;
 use slipstick::laboratory::metrics;
-use slipstick::laboratory::shaking_table::{Builder, Parameter, TableTest, shaking_table};
+use slipstick::laboratory::shaking_table::{
+    Builder, Instruments, Parameter, TableTest, shaking_table,
+};
 use slipstick::study::engine::Engine;
 
 /// The folder, or `None` and a line that says so.
@@ -73,7 +75,7 @@ fn peer_free_vibration() {
     let peer = reference("free_vibration.json");
     let values = numbers(&peer, "values");
     let times_s: Vec<f64> = (0..values.len()).map(|i| 0.01 * i as f64).collect();
-    let found = free_vibration(&times_s, &values);
+    let found = free_vibration(&times_s, &values, Motion::Displacement);
     for (estimate, key, half) in [
         (&found.frequency, "frequency_hz", "frequency_half_width_hz"),
         (&found.damping_ratio, "damping_ratio", "damping_ratio_half_width"),
@@ -171,6 +173,7 @@ fn file_isolated_building_on_a_shaking_table() {
         build: &|values: &[f64]| builder.model(values),
         start: None,
         using: Some(vec![Channel::SlidingDisplacement]),
+        instruments: &Instruments::exact(),
         seed: 1,
     };
     let found = shaking_table(&test, &Engine::unwatched()).unwrap();

@@ -45,6 +45,7 @@ fn every_sample_is_the_same_motion() {
         ("named-columns.csv", &nothing, "text with 3 columns, 24 values, 0.02 s, m/s²"),
         ("bom-and-brackets.csv", &nothing, "text with 3 columns, 24 values, 0.02 s, g"),
         ("decimal-comma.csv", &nothing, "text with 2 columns, 24 values, 0.02 s, g"),
+        ("words-below.txt", &g_at(Some(0.02)), "text with 8 values a line, 24 values, 0.02 s, g"),
         ("rounded-times.txt", &g_at(None), "text with 2 columns, 24 values, 0.02 s, g"),
     ] {
         let record = read(name, options);
@@ -103,6 +104,14 @@ fn every_format_holds_the_same_motion() {
         ("eight-digits.smc", "SMC", "352", 1.0, 1.1e-8),
         ("usc.m0a", "USC/Caltech volume I", "N08W", 1.0, 1e-4),
         ("usc.s0a", "USC/Caltech volume II", "N08W", 1.0, 1.1e-6),
+        ("usc-no-units.s0a", "USC/Caltech volume II", "N08W", 1.0, 1.1e-6),
+        ("text-columns.csv", "text with 6 columns", "Acc (%g)", 1.0, 1e-6),
+        ("exsim.acc", "text with 2 columns", "acc(cm/s**2)", 1.0, 1.1e-5),
+        ("sdsu.bbp", "text with 4 columns", "N-S(cm/s/s)", 1.0, 1.1e-7),
+        ("sdsu.bbp", "text with 4 columns", "U-D(cm/s/s)", 0.25, 1.1e-7),
+        ("knet.csv", "text with 5 columns", "E-W(gal)", -0.5, 1.1e-7),
+        ("jma.csv", "JMA CSV", "NS", 1.0, 1.1e-7),
+        ("jma.csv", "JMA CSV", "UD", 0.25, 1.1e-7),
         ("renadic.v1", "RENADIC V1", "EW", 1.0, 1e-4),
         ("renadic.v1", "RENADIC V1", "Z", -0.5, 1e-4),
         ("bhrc.V1", "BHRC V1", "L1", 1.0, 1e-7),

@@ -55,7 +55,7 @@ impl OpenStudy {
         let beside = self.record_paths.get(index * components..).unwrap_or_default();
         let Some((paths, others)) = beside.split_first() else { return };
         let along_y = others.first().filter(|_| components == 2).map(|other| &other.horizontal);
-        let units = records.unit_name.map(str::to_owned);
+        let units = records.unit_name.clone();
         let dt = records.dt_s.map(|dt_s| format!("{dt_s:?} s"));
         if along_y.is_none() && paths.vertical.is_none() {
             let mut option = |name: &str, value: Option<String>| {

@@ -6,7 +6,7 @@ const UNITS: i128 = 1_000_000_000_000_000_000;
 /// Decimals of it.
 const DECIMALS: usize = 18;
 /// Seconds of a day.
-const DAY_S: i128 = 86_400;
+pub(super) const DAY_S: i128 = 86_400;
 
 /// Numbers of a unit since 1970 from 2001 to 2286: which unit their size tells, and how many of it
 /// are a second.
@@ -75,6 +75,13 @@ fn nearest(mut units: i128) -> f64 {
 pub(super) fn epoch_unit(number: f64) -> Option<(f64, &'static str)> {
     let of = |(least, ..): &&(f64, &str, f64)| (*least..10.0 * least).contains(&number);
     EPOCHS.iter().find(of).map(|&(_, name, second)| (second, name))
+}
+
+/// Whether times are the days that spreadsheets count, from 1982 on: of that size, and several a minute.
+pub(super) fn are_days(first: f64, last: f64, rows: usize) -> bool {
+    let day = DAY_S as f64;
+    let step_s = (last - first) * day / rows as f64;
+    (30_000.0..80_000.0).contains(&first) && last - first < 1.0 && (0.0..20.0).contains(&step_s)
 }
 
 /// A decimal number, with point or comma, perhaps with an exponent, in 10⁻¹⁸; `None` where it has

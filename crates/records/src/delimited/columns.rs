@@ -13,7 +13,7 @@ pub struct Column {
     pub name: String,
     /// Whether the header says that it holds times.
     pub is_time: bool,
-    /// Its numbers, one a row, not converted.
+    /// Its numbers, one a row, not converted; NaN for a cell that is none ([`Columns::numbers`]).
     pub values: Vec<f64>,
 }
 
@@ -26,18 +26,20 @@ pub struct Columns {
     pub columns: Vec<Column>,
     /// The line of each row, counted from 1.
     lines: Vec<u32>,
+    /// Of each column the error about its first cell that is no number.
+    faults: Vec<Option<RecordError>>,
 }
 
 impl Columns {
     /// A table that was read elsewhere; its rows count from 1 as lines do.
     ///
     /// # Errors
-    /// [`RecordError`] for no column, fewer than two rows, columns of different lengths and numbers
-    /// that are not finite.
+    /// [`RecordError`] for no column, fewer than two rows and columns of different lengths.
     pub fn new(source_name: &str, columns: Vec<Column>) -> Result<Self, RecordError> {
         let rows = columns.first().map_or(0, |column| column.values.len());
         let lines = (1..=u32::try_from(rows).unwrap_or(u32::MAX)).collect();
-        let table = Self { source_name: source_name.to_owned(), columns, lines };
+        let faults = vec![None; columns.len()];
+        let mut table = Self { source_name: source_name.to_owned(), columns, lines, faults };
         if !(2..=MAX_SAMPLES).contains(&rows) {
             let expected = "2 to 100 000 000 rows of numbers";
             return Err(table.error(0, 1, expected, rows.to_string()));
@@ -48,16 +50,36 @@ impl Columns {
                 let expected = format!("{rows} numbers in {name:?}, as in the first column");
                 return Err(table.error(found.min(rows), index + 1, expected, found.to_string()));
             }
-            if let Some(row) = column.values.iter().position(|value| !value.is_finite()) {
-                let found = match column.values[row] {
-                    value if value.is_nan() => "none".to_owned(),
-                    value => value.to_string(),
-                };
-                let expected = format!("a number in {name:?}");
-                return Err(table.error(row, index + 1, expected, found));
-            }
         }
+        table.faults = (0..table.columns.len()).map(|index| table.not_finite(index)).collect();
         Ok(table)
+    }
+
+    /// The error about the first value of a column that is not finite.
+    fn not_finite(&self, index: usize) -> Option<RecordError> {
+        let Column { name, values, .. } = &self.columns[index];
+        let row = values.iter().position(|value| !value.is_finite())?;
+        let found = match values[row] {
+            value if value.is_nan() => "none".to_owned(),
+            value => value.to_string(),
+        };
+        Some(self.error(row, index + 1, format!("a number in {name:?}"), found))
+    }
+
+    /// The numbers of a column, all of them finite.
+    ///
+    /// # Errors
+    /// [`RecordError`] at its first cell that is no number.
+    pub fn numbers(&self, index: usize) -> Result<&[f64], RecordError> {
+        match &self.faults[index] {
+            None => Ok(&self.columns[index].values),
+            Some(fault) => Err(fault.clone()),
+        }
+    }
+
+    /// The columns of which no cell is a number: texts.
+    pub fn texts(&self) -> impl Iterator<Item = &Column> {
+        self.columns.iter().filter(|column| column.values.iter().all(|value| value.is_nan()))
     }
 
     /// Number of rows.
@@ -109,6 +131,9 @@ pub(crate) fn read(text: &Text) -> Result<Columns, RecordError> {
         return Err(text.error_at_end(expected, &table.rows().to_string()));
     }
     let names = header.names(text, &table)?;
+    if names.is_none() {
+        table.require_all(text)?;
+    }
     // Times of day count from the first.
     let of_clock = |index: usize| {
         let is_clock = table.clock[0] == Some(index);
@@ -122,9 +147,14 @@ pub(crate) fn read(text: &Text) -> Result<Columns, RecordError> {
             values: of_clock(index).unwrap_or_else(|| table.column(index).collect()),
         }
     };
+    let columns: Vec<Column> = (0..table.columns).map(column).collect();
+    if columns.iter().all(|column| column.values.iter().all(|value| value.is_nan())) {
+        table.require_all(text)?;
+    }
     Ok(Columns {
         source_name: text.source_name().to_owned(),
-        columns: (0..table.columns).map(column).collect(),
+        columns,
         lines: table.row_lines(text),
+        faults: (0..table.columns).map(|index| table.require(text, index).err()).collect(),
     })
 }

@@ -1,9 +1,9 @@
 //! What stands before the numbers: comments, text, names of the columns with their units.
 
-use super::style::Separator;
+use super::style::{Separator, separated};
 use super::table::TextTable;
-use crate::text::{Line, Text, number};
-use crate::unit::{Units, seconds};
+use crate::text::{Line, Text, number, number_with_comma};
+use crate::unit::{Quantity, Units, seconds};
 use slipstick_dynamics::error::RecordError;
 use slipstick_dynamics::units::{Dimension, parse_unit};
 
@@ -91,6 +91,47 @@ fn is_prose(line: &Line) -> bool {
     words().any(|word| is_word(&word)) || words().all(<[u8]>::is_empty)
 }
 
+/// Which cells of a row that begins with text are numbers, and what divides them.
+#[derive(PartialEq)]
+struct RowShape {
+    separator: u8,
+    is_number: Vec<bool>,
+}
+
+impl RowShape {
+    fn of(line: &Line, separator: u8) -> Self {
+        let cells = cells(line.bytes, separator).into_iter();
+        let is_number = |cell: &[u8]| {
+            number(cell).is_some() || (separator != b',' && number_with_comma(cell).is_some())
+        };
+        Self { separator, is_number: cells.map(is_number).collect() }
+    }
+
+    /// That of the rows of a file whose last line begins with text and has numbers behind it.
+    fn of_rows(text: &Text) -> Option<Self> {
+        let last = text.last_line(is_comment).filter(is_text)?;
+        let all = [b'\t', b';', b','].into_iter().map(|separator| Self::of(&last, separator));
+        let is_row = |shape: &Self| shape.is_number.len() > 1 && shape.is_number.contains(&true);
+        all.into_iter().find(is_row)
+    }
+
+    fn is_of(&self, line: &Line) -> bool {
+        *self == Self::of(line, self.separator)
+    }
+}
+
+/// The cells of a line without the blanks around them.
+fn cells(line: &[u8], separator: u8) -> Vec<&[u8]> {
+    let mut all = Vec::new();
+    let mut rest = line;
+    while let Some(length) = separated(rest, separator) {
+        all.push(rest[..length].trim_ascii());
+        rest = &rest[length + 1..];
+    }
+    all.push(rest.trim_ascii());
+    all
+}
+
 impl<'a> Header<'a> {
     /// The lines before the numbers.
     ///
@@ -100,10 +141,16 @@ impl<'a> Header<'a> {
         let mut header =
             Self { last: None, before: None, is_text: false, too_many: None, lines: 0 };
         let mut texts = 0;
+        let mut prose = false;
+        let rows = RowShape::of_rows(text);
         for (index, line) in text.lines().enumerate() {
             let (comment, words) = (is_comment(&line), is_text(&line));
+            if words && rows.as_ref().is_some_and(|rows| rows.is_of(&line)) {
+                return header.known(text);
+            }
             if !line.is_blank() && !comment && !words {
                 if index < HEADER_LINES && is_prose(&line) {
+                    prose = true;
                     continue;
                 }
                 return header.known(text);
@@ -113,6 +160,7 @@ impl<'a> Header<'a> {
                 header.last = Some(line);
             } else if words {
                 texts += 1;
+                prose = false;
                 header.before = header.last.filter(|_| header.is_text);
                 (header.last, header.is_text) = (Some(line), true);
                 if texts > TEXT_LINES {
@@ -126,6 +174,8 @@ impl<'a> Header<'a> {
         }
         match header.too_many {
             Some(_) => Err(header.unknown(text)),
+            // Every row has words beside its numbers.
+            None if prose => header.known(text),
             None => Err(text.error_at_end("numbers", "the end of the file")),
         }
     }
@@ -274,7 +324,10 @@ fn named(line: &str, separator: Separator, columns: usize) -> Vec<String> {
 fn split(line: &str, separator: Separator) -> Vec<String> {
     let clean = |name: &str| name.trim().trim_matches(['"', '\'']).trim().to_owned();
     match separator {
-        Separator::Byte(byte) => line.split(char::from(byte)).map(clean).collect(),
+        Separator::Byte(byte) => {
+            let cells = cells(line.as_bytes(), byte).into_iter();
+            cells.map(|cell| clean(&String::from_utf8_lossy(cell))).collect()
+        }
         Separator::Blank if line.contains('\t') => line.split('\t').map(clean).collect(),
         Separator::Blank => {
             let mut names: Vec<String> = Vec::new();
@@ -308,6 +361,13 @@ impl Name {
     /// Whether it is the ground acceleration of Eurocode 8, which states no unit.
     pub fn is_ground_acceleration(&self) -> bool {
         is_symbol_of_ground(&self.text)
+    }
+
+    /// What stands in brackets behind it where no unit of any quantity is called that.
+    pub fn unknown_unit(&self) -> Option<&str> {
+        let (_, word) = bracket(&self.text).filter(|_| self.unit == Some(Unit::Other))?;
+        let is_known = Dimension::ALL.iter().any(|of| parse_unit(word, *of).is_ok());
+        (!is_known && !word.is_empty()).then_some(word)
     }
 
     /// Whether its unit is one of time.
@@ -357,7 +417,20 @@ fn unit(name: &str) -> Option<Unit> {
         known(suffix).or_else(|| other.then_some(Unit::Other))
     };
     let of_word = || known(last_word(name)?.1);
-    suffixes(name).find_map(of_suffix).or_else(of_word)
+    suffixes(name).find_map(of_suffix).or_else(of_word).or_else(|| unit_alone(name))
+}
+
+/// The unit that is all that a name says: `seconds`, `m/s2`. `NS` is a direction and `min` a least value.
+fn unit_alone(name: &str) -> Option<Unit> {
+    let word = name.trim();
+    let is_time = word == "s" || word == "ms" || (word.len() > 2 && word.to_lowercase() != "min");
+    match known(word)? {
+        Unit::Time(second) => is_time.then_some(Unit::Time(second)),
+        Unit::Motion(units) if units.quantity() == Quantity::Acceleration => {
+            Some(Unit::Motion(units))
+        }
+        _ => None,
+    }
 }
 
 /// Whether a name is that of the ground acceleration of Eurocode 8, `a_g` or `u_g`, whose letter g is

@@ -42,6 +42,9 @@ pub(super) fn of(
     given_s: Option<f64>,
 ) -> Result<Layout, RecordError> {
     let names = header.names(text, table)?;
+    if names.is_none() {
+        table.require_all(text)?;
+    }
     if let Some(names) = &names
         && is_spectrum(names, table)
     {
@@ -50,11 +53,16 @@ pub(super) fn of(
     let index = index_column(names.as_deref(), table);
     let named_time = names.as_ref().and_then(|names| {
         let times = |c: &usize| Some(*c) != index && names[*c].is_time();
-        let all: Vec<usize> = (0..table.columns).filter(times).collect();
+        let is_usable = |c: &usize| given_s.is_none() || table.is_numeric(*c);
+        let all: Vec<usize> = (0..table.columns).filter(times).filter(is_usable).collect();
+        let of_numbers = all.iter().copied().filter(|c| !table.is_text(*c));
+        let of_numbers: Vec<usize> = of_numbers.collect();
+        let all = if of_numbers.is_empty() { all } else { of_numbers };
         all.iter().copied().find(|c| names[*c].has_time_unit()).or_else(|| all.first().copied())
     });
     let named_time = table.clock[0].or(named_time);
-    let first = usize::from(index.is_some());
+    let is_none = |c: &usize| Some(*c) == index || table.clock[1] == Some(*c) || table.is_text(*c);
+    let first = (0..table.columns).find(|c| !is_none(c)).unwrap_or(0);
     // A column that is named and has a unit of motion is not taken for times.
     let first_is_motion = names.as_ref().is_some_and(|names| {
         named_time.is_some() || names.get(first).is_none_or(|name| name.unit.is_some())
@@ -94,6 +102,7 @@ pub(super) fn of(
     let mut notices = Vec::new();
     let times_s = match time_column {
         Some(column) => {
+            table.require(text, column)?;
             let unit = names.as_ref().and_then(|names| names[column].unit);
             let clock = Clock { text, table, column, is_given: given_s.is_some() };
             Some(clock.times_s(unit, &mut notices)?)
@@ -190,10 +199,10 @@ impl Clock<'_, '_> {
         let second = match unit {
             _ if is_clock => 1.0,
             Some(Unit::Time(seconds)) => seconds,
-            None => self.unit_of_epoch(first, notices),
+            None => self.unit_of_epoch(notices),
             Some(_) => return Err(table.error_at(text, 0, column, "times in s, ms or min")),
         };
-        let large = is_clock || first.abs() >= LARGE_TIME;
+        let large = is_clock || first.abs() >= LARGE_TIME || second == clock::DAY_S as f64;
         let exact = large.then(|| table.since_first(text, column)).flatten();
         if is_clock && exact.is_none() {
             return Err(table.error_at(text, 0, column, "a time of day in every row"));
@@ -205,7 +214,13 @@ impl Clock<'_, '_> {
         let times_s: Vec<f64> = times.into_iter().map(in_s).collect();
         if let Some(row) = sampling::disorder(&times_s) {
             let before_s = times_s[row - 1];
-            let expected = format!("a time after {before_s} s (or once the same, for a jump)");
+            let thousands = if table.has_thousands(text, row, column) {
+                "; with a point between thousands it is none: write 1000, not 1.000"
+            } else {
+                ""
+            };
+            let expected =
+                format!("a time after {before_s} s (or once the same, for a jump){thousands}");
             return Err(table.error_at(text, row, column, expected));
         }
         let last = times_s.len() - 1;
@@ -224,10 +239,18 @@ impl Clock<'_, '_> {
         Ok(times_s)
     }
 
-    /// Seconds in the unit of times that only a clock since 1970 shows.
-    fn unit_of_epoch(&self, first: f64, notices: &mut Vec<Notice>) -> f64 {
-        let Some((second, name)) = clock::epoch_unit(first) else { return 1.0 };
-        let message = format!("times of the size of {first:.6e} were taken as {name} since 1970");
+    /// Seconds in the unit of times that only a clock since 1970 shows, or the days of a spreadsheet.
+    fn unit_of_epoch(&self, notices: &mut Vec<Notice>) -> f64 {
+        let mut times = self.table.column(self.column);
+        let (first, last) = (times.next().unwrap_or(0.0), times.last().unwrap_or(0.0));
+        let (second, name) = match clock::epoch_unit(first) {
+            Some((second, name)) => (second, format!("{name} since 1970")),
+            None if clock::are_days(first, last, self.table.rows()) => {
+                (clock::DAY_S as f64, "days of a spreadsheet".to_owned())
+            }
+            None => return 1.0,
+        };
+        let message = format!("times of the size of {first:.6e} were taken as {name}");
         notices.push(Notice::new(NoticeKind::ClockAssumed, message));
         second
     }

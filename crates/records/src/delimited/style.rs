@@ -68,6 +68,12 @@ impl Style {
             let mut lines = text.lines().skip(header.lines);
             lines.any(|line| !is_comment(&line) && line.bytes.contains(&b';'))
         };
+        let decided = decided.map(|style: Self| match style.separator {
+            Separator::Blank if tabs(text, header) => {
+                Self { separator: Separator::Byte(b'\t'), ..style }
+            }
+            _ => style,
+        });
         match (decided, doubtful) {
             (Some(style), _) => Ok(style),
             (None, _) if semicolons() => Ok(style(Separator::Byte(b';'), false)),
@@ -88,7 +94,26 @@ impl Style {
         if self.decimal_comma { number_with_comma(word) } else { number(word) }
     }
 
-    /// Calls `each` with every word of a line, until it fails.
+    /// Number of cells of the first row: those behind which every row has nothing are none.
+    pub fn columns_of_first(self, text: &Text, header: &Header, first: &Line) -> usize {
+        let cells = |line: &Line| {
+            let (mut all, mut filled) = (0, 0);
+            let _ = self.words::<()>(line, |word| {
+                all += 1;
+                filled = if word.is_empty() { filled } else { all };
+                Ok(())
+            });
+            [all, filled]
+        };
+        let [all, filled] = cells(first);
+        if all == filled || self.separator == Separator::Blank {
+            return filled;
+        }
+        let rows = text.lines().skip(header.lines).filter(|line| !is_comment(line));
+        rows.map(|line| cells(&line)[1].min(all)).fold(filled, usize::max)
+    }
+
+    /// Calls `each` with every word of a line, until it fails; a separator between quotes is none.
     pub fn words<E>(
         self,
         line: &Line,
@@ -100,7 +125,7 @@ impl Style {
         let mut start = 0;
         loop {
             let rest = &line.bytes[start..];
-            let length = rest.iter().position(|&b| b == separator);
+            let length = separated(rest, separator);
             let word = &rest[..length.unwrap_or(rest.len())];
             let blanks = word.len() - word.trim_ascii_start().len();
             let first = start + blanks;
@@ -111,4 +136,33 @@ impl Style {
             }
         }
     }
+}
+
+/// Whether tabs divide the first row into cells of which one has words with blanks between them.
+fn tabs(text: &Text, header: &Header) -> bool {
+    let mut rows = text.lines().skip(header.lines).filter(|line| !is_comment(line));
+    let Some(first) = rows.next() else { return false };
+    let has_words = |cell: &[u8]| {
+        let cell = cell.trim_ascii();
+        cell.contains(&b' ') && cell.iter().filter(|b| b.is_ascii_alphabetic()).count() > 1
+    };
+    first.bytes.contains(&b'\t') && first.bytes.split(|b| *b == b'\t').any(has_words)
+}
+
+/// Where the first cell of some bytes ends in a separator; one between quotes is none, unless the quotes
+/// are not closed.
+pub(super) fn separated(bytes: &[u8], separator: u8) -> Option<usize> {
+    let is_separator = |b: &u8| *b == separator;
+    if bytes.trim_ascii_start().first() != Some(&b'"') {
+        return bytes.iter().position(is_separator);
+    }
+    let mut quoted = false;
+    let mut outside = |b: &u8| {
+        quoted ^= *b == b'"';
+        !quoted && is_separator(b)
+    };
+    bytes.iter().position(&mut outside).or_else(|| {
+        // The end of the line inside quotes: they mean nothing.
+        if quoted { bytes.iter().position(is_separator) } else { None }
+    })
 }

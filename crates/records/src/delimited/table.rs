@@ -1,6 +1,7 @@
 //! Rows and columns of numbers.
 
 use core::ops::Range;
+use std::collections::BTreeMap;
 
 use super::clock::{self, Instant};
 use super::header::{Header, is_comment};
@@ -19,10 +20,23 @@ pub(super) struct TextTable {
     pub cells: Vec<f64>,
     /// The column of times of day, whose cells here are 0, and that of dates beside them.
     pub clock: [Option<usize>; 2],
+    /// Of each column with cells that are no numbers, NaN here, the first of them and their count.
+    faults: BTreeMap<usize, Fault>,
+    /// A last line of words behind the numbers, which is none of the rows.
+    pub tail: Option<usize>,
     /// Count and step of a first line that states them.
     count: Option<CountLine>,
     /// Lines before the first of numbers, a count among them.
     header_lines: usize,
+}
+
+/// The first cell of a column that is no number.
+#[derive(Clone)]
+struct Fault {
+    row: usize,
+    word: Range<usize>,
+    /// Cells of the column that are no numbers.
+    count: usize,
 }
 
 /// A first line `4000 0.01`: count and step in s.
@@ -34,19 +48,27 @@ struct CountLine {
 }
 
 impl TextTable {
-    /// Reads the numbers after a header.
+    /// Reads the numbers after a header. A cell that is no number is a fault of its column, which matters
+    /// where the column is used ([`TextTable::require`]).
     ///
     /// # Errors
-    /// For what is no finite number; for rows of different lengths; for a blank line among them;
-    /// for fewer or more than a count line says.
+    /// For rows of different lengths; for a blank line among them; for fewer or more than a count line says.
     pub fn read(text: &Text, header: &Header) -> Result<Self, RecordError> {
         let style = Style::of(text, header)?;
-        let clock = [None; 2];
-        let header_lines = header.lines;
-        let mut table = Self { style, columns: 0, cells: vec![], clock, count: None, header_lines };
+        let mut table = Self {
+            style,
+            columns: 0,
+            cells: vec![],
+            clock: [None; 2],
+            faults: BTreeMap::new(),
+            tail: None,
+            count: None,
+            header_lines: header.lines,
+        };
         let mut rows = text.lines().skip(header.lines).filter(|line| !is_comment(line));
         let mut pending = rows.next();
         if let Some(first) = pending {
+            table.columns = style.columns_of_first(text, header, &first);
             table.columns = table.row(text, &first)?;
             pending = rows.next();
             if let Some(second) = pending.filter(|line| !line.is_blank()) {
@@ -54,6 +76,7 @@ impl TextTable {
                 if let Some(count) = table.count_line(&first, columns) {
                     table.cells.drain(..2);
                     table.header_lines = first.number;
+                    table.faults.values_mut().for_each(|fault| fault.row = 0);
                     (table.count, table.columns) = (Some(count), columns);
                 } else if columns != table.columns {
                     return Err(table.uneven_row(text, &second, columns));
@@ -69,12 +92,16 @@ impl TextTable {
                 }
                 return Err(text.error(&line, 0, "a row of numbers", "an empty line"));
             }
-            if let Some((line, columns)) = short {
-                return Err(table.uneven_row(text, &line, columns));
+            if let Some((short, columns)) = short {
+                return Err(table.uneven_row(text, &short, columns));
+            }
+            if table.is_tail(&line) && rows.clone().all(|line| line.is_blank()) {
+                table.tail = Some(line.number);
+                break;
             }
             let columns = table.row(text, &line)?;
             if columns != table.columns {
-                if columns > table.columns || table.columns < 3 {
+                if columns > table.columns || table.columns < 3 || table.has_fault_in_last_row() {
                     return Err(table.uneven_row(text, &line, columns));
                 }
                 short = Some((line, columns));
@@ -83,6 +110,64 @@ impl TextTable {
         }
         table.check_count(text)?;
         Ok(table)
+    }
+
+    /// Whether a line is a sentence, such as people write below numbers that blanks divide: a word first,
+    /// and more words than numbers.
+    fn is_tail(&self, line: &Line) -> bool {
+        let is_word = |word: Range<usize>| {
+            let word = &line.bytes[word];
+            self.style.number(word).is_none() && word.iter().any(u8::is_ascii_alphabetic)
+        };
+        let words = || line.words().map(is_word);
+        let count = words().filter(|is_word| *is_word).count();
+        self.style.separator == Separator::Blank
+            && self.clock == [None; 2]
+            && self.faults.is_empty()
+            && words().next() == Some(true)
+            && count >= 2
+            && 2 * count > words().count()
+    }
+
+    /// Whether no cell of a column is a number: text, or nothing.
+    pub fn is_text(&self, column: usize) -> bool {
+        self.faults.get(&column).is_some_and(|fault| fault.count >= self.rows())
+    }
+
+    /// Whether every cell of a column is a number, or a time of day, or a date.
+    pub fn is_numeric(&self, column: usize) -> bool {
+        !self.faults.contains_key(&column)
+    }
+
+    /// The error about the first cell of a column that is no number.
+    ///
+    /// # Errors
+    /// Where there is one.
+    pub fn require(&self, text: &Text, column: usize) -> Result<(), RecordError> {
+        match self.faults.get(&column) {
+            None => Ok(()),
+            Some(fault) => Err(self.error_of(text, fault)),
+        }
+    }
+
+    /// The same of all columns, the first cell of the file.
+    ///
+    /// # Errors
+    /// Where there is one.
+    pub fn require_all(&self, text: &Text) -> Result<(), RecordError> {
+        match self.faults.iter().min_by_key(|(column, fault)| (fault.row, **column)) {
+            None => Ok(()),
+            Some((_, fault)) => Err(self.error_of(text, fault)),
+        }
+    }
+
+    fn error_of(&self, text: &Text, fault: &Fault) -> RecordError {
+        text.error_at(&self.line(text, fault.row), &fault.word, "a finite number")
+    }
+
+    fn has_fault_in_last_row(&self) -> bool {
+        let last = self.cells.len().saturating_sub(1) / self.columns.max(1);
+        self.faults.values().any(|fault| fault.row >= last)
     }
 
     /// Number of full rows.
@@ -120,6 +205,24 @@ impl TextTable {
         Some(clock::since_first(instants?.into_iter()))
     }
 
+    /// Whether a cell has three digits behind a point, the cell above it none: 999, then 1.000.
+    pub fn has_thousands(&self, text: &Text, row: usize, column: usize) -> bool {
+        let cell = |row: usize| {
+            let line = self.line(text, row);
+            let word = self.words(&line).into_iter().nth(column);
+            word.map(|word| unquoted(&line.bytes[word]).to_vec()).unwrap_or_default()
+        };
+        let before = row.checked_sub(1).map(cell).unwrap_or_default();
+        let found = cell(row);
+        let digits = |cell: &[u8]| !cell.is_empty() && cell.iter().all(u8::is_ascii_digit);
+        let parts: Vec<&[u8]> = found.split(|b| *b == b'.').collect();
+        let [whole, groups @ ..] = &parts[..] else { return false };
+        digits(&before)
+            && digits(whole)
+            && !groups.is_empty()
+            && groups.iter().all(|group| group.len() == 3 && digits(group))
+    }
+
     /// The words of a line; a date and the time of day behind it are one.
     fn words(&self, line: &Line) -> Vec<Range<usize>> {
         let mut words: Vec<Range<usize>> = Vec::new();
@@ -140,32 +243,38 @@ impl TextTable {
         self.style.separator == Separator::Blank && clock::is_date(word)
     }
 
-    /// Appends the numbers of a line; how many there were. Empty cells behind the last number are none.
+    /// Appends the cells of a line, NaN for what is no number; how many there were. Empty cells behind those
+    /// that other rows have are none.
     fn row(&mut self, text: &Text, line: &Line) -> Result<usize, RecordError> {
         let before = self.cells.len();
+        let row = before / self.columns.max(1);
         let style = self.style;
-        let (mut date, mut empty): (Option<usize>, Option<Range<usize>>) = (None, None);
+        let (mut date, mut filled): (Option<usize>, usize) = (None, 0);
+        let mut faults: Vec<(usize, Range<usize>)> = Vec::new();
         style.words(line, |word| {
-            if let Some(empty) = empty.as_ref().filter(|_| !word.is_empty()) {
-                return Err(text.error_at(line, empty, "a finite number"));
-            }
             let word = date.take().unwrap_or(word.start)..word.end;
             let bytes = unquoted(&line.bytes[word.clone()]);
-            if bytes.is_empty() && self.cells.len() > before {
-                empty.get_or_insert(word);
-            } else if self.is_date_before_time(bytes) {
+            if !bytes.is_empty() && self.is_date_before_time(bytes) {
                 date = Some(word.start);
-            } else {
-                let column = self.cells.len() - before;
-                let value = style.number(bytes).or_else(|| self.clock_cell(column, bytes));
-                let value = value.ok_or_else(|| text.error_at(line, &word, "a finite number"))?;
-                self.cells.push(value);
+                return Ok::<(), RecordError>(());
             }
+            let column = self.cells.len() - before;
+            let value = style.number(bytes).or_else(|| self.clock_cell(column, bytes));
+            if value.is_none() {
+                faults.push((column, word));
+            }
+            if !bytes.is_empty() {
+                filled = column + 1;
+            }
+            self.cells.push(value.unwrap_or(f64::NAN));
             Ok(())
         })?;
-        let columns = self.cells.len() - before;
-        if let Some(empty) = empty.filter(|_| columns < self.columns) {
-            return Err(text.error_at(line, &empty, "a finite number"));
+        let found = self.cells.len() - before;
+        let columns = filled.max(found.min(self.columns));
+        self.cells.truncate(before + columns);
+        for (column, word) in faults.into_iter().filter(|(column, _)| *column < columns) {
+            let new = Fault { row, word, count: 0 };
+            self.faults.entry(column).or_insert(new).count += 1;
         }
         if self.cells.len() > 8 * MAX_SAMPLES {
             return Err(text.error(line, 0, "at most 100 000 000 rows", "more"));
@@ -209,6 +318,12 @@ impl TextTable {
     }
 
     fn uneven_row(&self, text: &Text, line: &Line, columns: usize) -> RecordError {
+        // A word is no number, whatever the number of words.
+        let last =
+            self.faults.values().filter(|fault| self.line(text, fault.row).number == line.number);
+        if let Some(fault) = last.min_by_key(|fault| fault.word.start) {
+            return self.error_of(text, fault);
+        }
         let s = if self.columns == 1 { "" } else { "s" };
         let expected = format!("{} number{s}, as in the rows before", self.columns);
         text.error(line, 0, expected, &columns.to_string())

@@ -50,6 +50,8 @@ pub(crate) fn read(text: &Text) -> Result<TargetSpectrum, RecordError> {
         Some(Unit::Motion(units)) => units.si(),
         _ => 1.0,
     };
+    table.require(text, period)?;
+    table.require(text, ordinate)?;
     let periods_s = table.column(period).map(|t| t * second).collect();
     let sa_m_per_s2 = table.column(ordinate).map(|sa| sa * unit).collect();
     TargetSpectrum::points(periods_s, sa_m_per_s2).map_err(|error| {

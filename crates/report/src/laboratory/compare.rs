@@ -113,7 +113,9 @@ impl CompareReport<'_> {
         }));
         if all.iter().any(|c| c.metrics.anderson.is_some()) {
             rows.push(row("Anderson's scores over the whole band (0 to 10)", &|c, _| {
-                c.metrics.anderson.map_or(String::new(), |scores| scores.words())
+                c.metrics
+                    .anderson
+                    .map_or(String::new(), |scores| scores.words(c.metrics.peak_ratio))
             }));
         }
         rows

@@ -2,9 +2,10 @@
 
 use serde::Serialize;
 use slipstick::input::Channel;
-use slipstick::laboratory::free_vibration::FreeVibration;
+use slipstick::laboratory::free_vibration::{Damping, FreeVibration};
 
 use super::compare::{quantity, title};
+use super::identify::estimate_json;
 use crate::assessment::lines::{over_x, panel, single};
 use crate::display::DisplayUnits;
 use crate::figures::Drawn;
@@ -13,8 +14,8 @@ use crate::plot::{Axis, Style};
 use crate::view;
 
 /// What the intervals assume.
-pub const ASSUMPTION: &str = "95 % intervals by profile likelihood: one linear mode with viscous \
-     damping, residuals that are normal and of one variance; their measured correlation length \
+pub const ASSUMPTION: &str = "95 % intervals by profile likelihood: one linear mode under viscous \
+     damping, dry friction or both, as the evidence has it, residuals that are normal and of one variance; their measured correlation length \
      widens the intervals.";
 
 /// Other figures of a fit.
@@ -24,7 +25,7 @@ pub fn facts(
     span_s: [f64; 2],
     fit: &FreeVibration,
 ) -> Vec<(&'static str, String)> {
-    vec![
+    let mut facts = vec![
         ("Quantity", channel.name()),
         ("Time", format!("{} to {} s", significant(span_s[0], 5), significant(span_s[1], 5))),
         ("Cycles", significant(fit.cycles, 3)),
@@ -33,7 +34,23 @@ pub fn facts(
             "Correlation length of the residuals",
             format!("{} samples", significant(fit.correlation_length, 3)),
         ),
-    ]
+    ];
+    facts.extend(fit.damping.zip(fit.evidence).map(|(damping, evidence)| {
+        let law = match damping {
+            Damping::Viscous => "viscous damping",
+            Damping::Friction => "dry friction",
+            Damping::Both => "viscous damping and dry friction",
+            Damping::Undecided => "not decided",
+        };
+        let [viscous, friction, both] = evidence.map(|worse| significant(worse, 3));
+        let said = format!(
+            "{law}; Schwarz's criterion above its least: viscous {viscous}, friction {friction}, both {both} (6 \
+             are odds of 20 to 1)"
+        );
+        ("What stops it", said)
+    }));
+    facts.extend(fit.friction.why().map(|why| ("Friction", why.to_owned())));
+    facts
 }
 
 /// What only this job has in its JSON object.
@@ -46,6 +63,9 @@ pub fn json(channel: Channel, [from_s, to_s]: [f64; 2], fit: &FreeVibration) -> 
         cycles: fit.cycles,
         variance_explained: fit.explained,
         correlation_length_samples: fit.correlation_length,
+        damping: fit.damping.map(Damping::name),
+        evidence: fit.evidence.map(|[viscous, friction, both]| view! { viscous, friction, both }),
+        friction: estimate_json(&fit.friction),
     }
 }
 

@@ -154,11 +154,16 @@ fn of_job(
             }
         }
         Fitted::ShakingTable { fit, parameters, seed } => {
-            let (rows, figures) = shaking_table::agreement(fit, name, display);
+            let (rows, mut figures) = shaking_table::agreement(fit, name, display);
+            figures.push(shaking_table::residuals(fit, display));
+            let sensors = shaking_table::sensors(fit).map(|rows| ("Sensors".to_owned(), rows));
+            let correlations = shaking_table::correlations(fit);
+            let correlations = correlations.map(|rows| ("Correlations".to_owned(), rows));
+            let agreement = ("Agreement with the best values".to_owned(), rows);
             OfJob {
                 job: "shaking-table",
                 facts: shaking_table::facts(fit, display),
-                tables: vec![("Agreement with the best values".to_owned(), rows)],
+                tables: sensors.into_iter().chain(correlations).chain([agreement]).collect(),
                 assumption: shaking_table::assumption(fit),
                 json: pretty(&shaking_table::json(fit, parameters, *seed)),
                 figures,

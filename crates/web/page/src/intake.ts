@@ -154,6 +154,9 @@ export class Intake {
     const choices = (inspected: Inspected | undefined) => {
       channelField.hidden = !inspected || inspected.channels.length < 2;
       fill(channel, ...(inspected?.channels ?? []).map((c) => h("option", { value: c.name, disabled: !c.usable && !c.counts }, `${c.name} (${c.quantity})`)));
+      // A vertical component is chosen by whoever wants it.
+      const along = inspected?.channels.find((c) => (c.usable || c.counts) && !c.vertical);
+      if (along) channel.value = along.name;
       const counts = inspected?.channels.every((c) => c.counts);
       what.textContent = !inspected ? "" : counts ? `${inspected.layout}. Its values are counts of a recorder: give the value of one as their unit, such as 4.67e-6 m/s2.` : `${inspected.layout}. Which channel is the table's motion?`;
     };
@@ -201,7 +204,7 @@ export class Intake {
               name,
               ...(units.value.trim() ? { units: units.value.trim() } : {}),
               ...(dt.value.trim() ? { dt: dt.value.trim() } : {}),
-              ...(read.channels.length > 1 ? { channel: channel.value || usable[0]!.name } : {}),
+              ...(read.channels.length > 1 ? { channel: channel.value || (usable.find((c) => !c.vertical) ?? usable[0]!).name } : {}),
             };
             this.answered = { units: units.value.trim(), dt: dt.value.trim() };
             dialog.close();

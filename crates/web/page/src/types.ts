@@ -263,6 +263,7 @@ export interface Inspected {
     quantity: string;
     usable: boolean;
     counts: boolean;
+    vertical: boolean;
     values: number;
     dt_s: number | null;
     words: string;

@@ -2,6 +2,7 @@
 
 use super::super::tree::{SourceSpan, Sources};
 use crate::error::{InputError, cut};
+use crate::record::{cell_ranges, separator_of};
 
 /// A cell and where it stands.
 #[derive(Clone, Debug)]
@@ -38,7 +39,7 @@ pub(super) fn tables<'a>(
     text: &'a str,
 ) -> Result<Vec<Exported<'a>>, InputError> {
     let mut all: Vec<Exported<'a>> = Vec::new();
-    let (mut title, mut separator) = (None, ',');
+    let (mut title, mut separator) = (None, b',');
     let mut at = 0;
     for whole in text.split_inclusive('\n') {
         let from = at;
@@ -49,22 +50,30 @@ pub(super) fn tables<'a>(
         if bare.trim_matches(|c: char| c.is_whitespace() || ",;".contains(c)).is_empty() {
             continue;
         }
+        if bare.trim_start().starts_with('#') {
+            continue;
+        }
         if let Some(name) = title_of(bare) {
             title = Some((name, SourceSpan { source, span: start..start + bare.len() }));
             continue;
         }
         let is_header = title.is_some() || all.is_empty();
         if is_header {
-            separator = [';', '\t', ','].into_iter().find(|c| bare.contains(*c)).unwrap_or(',');
+            separator = separator_of(bare.as_bytes());
         }
-        let cells = split(bare, start, separator, source);
+        let mut cells = split(bare, start, separator, source);
+        // A spreadsheet pads short tables; a column without a name has nothing to be read.
+        let most = if is_header { 0 } else { all.last().map_or(0, |table| table.columns.len()) };
+        while cells.len() > most.max(1) && cells.last().is_some_and(|cell| cell.text.is_empty()) {
+            cells.pop();
+        }
         if is_header {
             let (title, spot) = match title.take() {
                 Some((name, spot)) => (Some(name), spot),
                 None => (None, SourceSpan { source, span: start..start + bare.len() }),
             };
             let columns = cells.iter().map(column).collect();
-            let decimal_comma = separator != ',';
+            let decimal_comma = separator != b',';
             all.push(Exported { title, spot, columns, rows: Vec::new(), decimal_comma });
             continue;
         }
@@ -108,29 +117,13 @@ fn is_row_of_units(cells: &[Cell<'_>]) -> bool {
     !cells.iter().any(is_number)
 }
 
-/// The cells of a line; a separator between quotes is none.
-fn split(line: &str, at: usize, separator: char, source: usize) -> Vec<Cell<'_>> {
-    let mut ends = Vec::new();
-    let mut quoted = false;
-    for (i, c) in line.char_indices() {
-        quoted ^= c == '"';
-        if c == separator && !quoted {
-            ends.push(i);
-        }
-    }
-    ends.push(line.len());
-    let mut from = 0;
-    let cell = |end: usize| {
-        let part = line.get(from..end).unwrap_or("");
-        let text = part.trim();
-        let start = at + from + part.len() - part.trim_start().len();
-        from = end + separator.len_utf8();
-        Cell {
-            text: text.trim_matches('"').trim(),
-            spot: SourceSpan { source, span: start..start + text.len() },
-        }
+/// The cells of a line.
+fn split(line: &str, at: usize, separator: u8, source: usize) -> Vec<Cell<'_>> {
+    let cell = |range: core::ops::Range<usize>| Cell {
+        text: line.get(range.clone()).unwrap_or("").trim_matches('"').trim(),
+        spot: SourceSpan { source, span: at + range.start..at + range.end },
     };
-    ends.into_iter().map(cell).collect()
+    cell_ranges(line.as_bytes(), separator).into_iter().map(cell).collect()
 }
 
 impl<'a> Exported<'a> {

@@ -20,13 +20,18 @@ pub(super) fn read(values: &Values) -> Result<Option<Records>, InputError> {
     if files.is_empty() {
         return Err(values.error("records.files", "at least one file or pattern", "none"));
     }
-    let unit_name = values.leaf("records.units").and_then(|leaf| match leaf.given {
-        LeafValue::Unit(unit) => Some(unit.name()),
+    let leaf = values.leaf("records.units");
+    let units = leaf.and_then(|leaf| Units::parse(&leaf.written));
+    let plain = leaf.and_then(|leaf| match leaf.given {
+        LeafValue::Unit(unit) => Some(unit.name().to_owned()),
         _ => None,
+    });
+    let unit_name = units.map(|units| {
+        plain.filter(|name| Units::parse(name) == Some(units)).unwrap_or(units.to_string())
     });
     Ok(Some(Records {
         files,
-        units: unit_name.and_then(Units::parse),
+        units,
         unit_name,
         dt_s: values.number("records.dt"),
         channel: values.leaf("records.channel").map(|leaf| leaf.written.clone()),

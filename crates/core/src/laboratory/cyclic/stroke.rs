@@ -6,6 +6,11 @@ use crate::numerics::fractile::upper_median;
 /// Strokes of one speed take times within this ratio.
 const ONE_SPEED: f64 = 1.2;
 
+/// Part of the drop that is left one sample after a breakaway whose fall is slow.
+const SLOW_FALL: f64 = 0.15;
+/// Travel counts from so many standard deviations of the displacement's noise on.
+const CLEAR_OF_NOISE: f64 = 6.0;
+
 /// From one reversal to the next.
 #[derive(Clone, Debug)]
 pub(super) struct Stroke {
@@ -17,6 +22,8 @@ pub(super) struct Stroke {
     pub sign: f64,
     /// Samples on each side over which velocities are taken.
     pub smoothing: usize,
+    /// Standard deviation of the noise of the displacement, in m.
+    noise_m: f64,
     /// Velocity at each of its samples in m/s.
     velocity_m_per_s: Vec<f64>,
 }
@@ -30,15 +37,21 @@ pub(super) struct Breakaway {
     pub force_n: f64,
     /// By how much it falls, in N.
     pub drop_n: f64,
+    /// By how much the last sample before it is above those behind it, in N.
+    pub seen_n: f64,
+    /// By how much the force rises in one step before it, in N.
+    pub rise_n: f64,
     /// Standard deviation of the force for not knowing when between two samples it broke away.
     pub sampling_n: f64,
 }
 
 impl Breakaway {
-    /// Whether it can be told from noise of some standard deviation and from the samples' steps.
+    /// Whether it can be told from noise of some standard deviation and from the samples' steps: a sample must
+    /// stand above what follows, since a curve that is carried on does so by itself.
     pub fn is_clear(&self, noise_n: f64) -> bool {
-        let rise_n = 12.0_f64.sqrt() * self.sampling_n;
-        self.drop_n > super::CLEAR_DROP * noise_n && self.drop_n > 2.0 * rise_n
+        let rise_n = self.rise_n;
+        let least = self.drop_n.min(self.seen_n);
+        least > super::CLEAR_DROP * noise_n && self.drop_n > 2.0 * rise_n
     }
 }
 
@@ -59,7 +72,7 @@ pub(super) fn strokes(test: &CyclicTest) -> Result<(Vec<Stroke>, usize), CyclicE
         let duration = ends[1] - ends[0];
         let smoothing = (duration / 20).max(2);
         if length_m >= 0.5 * usual_m && duration > 4 * smoothing {
-            strokes.push(Stroke::new(test, ends[0], ends[1], smoothing));
+            strokes.push(Stroke::new(test, [ends[0], ends[1]], smoothing, noise_m));
         }
     }
     // What stands before the first and after the last reversal is incomplete.
@@ -120,10 +133,10 @@ fn reversals(x: &[f64], threshold: f64) -> Vec<usize> {
 }
 
 impl Stroke {
-    fn new(test: &CyclicTest, first: usize, last: usize, smoothing: usize) -> Self {
+    fn new(test: &CyclicTest, [first, last]: [usize; 2], smoothing: usize, noise_m: f64) -> Self {
         let sign = (test.displacement_m[last] - test.displacement_m[first]).signum();
         let velocity = (first..=last).map(|i| slope(test, i, smoothing)).collect();
-        Self { first, last, sign, smoothing, velocity_m_per_s: velocity }
+        Self { first, last, sign, smoothing, noise_m, velocity_m_per_s: velocity }
     }
 
     /// Velocity at a sample in m/s.
@@ -146,8 +159,10 @@ impl Stroke {
         self.sign * (test.displacement_m[sample] - test.displacement_m[self.first])
     }
 
-    /// The first sample beyond some travel, and clear of what the smoothing mixes.
+    /// The first sample beyond some travel, and clear of what the smoothing mixes. Noise is no travel: a block that
+    /// is stuck stays where it is.
     pub fn after(&self, test: &CyclicTest, travel_m: f64) -> usize {
+        let travel_m = travel_m + CLEAR_OF_NOISE * self.noise_m;
         let beyond = (self.first..self.last).find(|i| self.travel_m(test, *i) > travel_m);
         beyond.unwrap_or(self.last) + self.smoothing + 1
     }
@@ -258,13 +273,22 @@ impl Stroke {
             let value = misfit(turn);
             if value < best.1 { (turn, value) } else { best }
         });
-        let t = f64::from(turn.0) + 0.5;
+        let sample = at.saturating_add_signed(turn.0 as isize);
+        // A soft rig lets the force fall over several samples: the first of them may stand near the top. (Where
+        // friction follows the speed it falls on as the block gains speed.)
+        let is_slow = test.law == KineticLaw::Coulomb
+            && held(sample + 1) - level > SLOW_FALL * drop_n
+            && held(sample + 2) - level > 0.5 * SLOW_FALL * drop_n;
+        let (back, steps) = if is_slow { (0.0, 2.0) } else { (0.5, 1.0) };
+        let t = f64::from(turn.0) + back;
         let rate = curve[1] + 2.0 * t * curve[2];
         Some(Breakaway {
-            sample: at.saturating_add_signed(turn.0 as isize),
+            sample,
             force_n: rising(t),
             drop_n,
-            sampling_n: rate.abs() / 12.0_f64.sqrt(),
+            seen_n: held(sample) - level,
+            rise_n: rate.abs(),
+            sampling_n: steps * rate.abs() / 12.0_f64.sqrt(),
         })
     }
 }

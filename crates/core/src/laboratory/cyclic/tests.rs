@@ -348,3 +348,101 @@ fn frequency_dependence_over_several_tests() {
     // Nothing in the made tests depends on frequency: 1 N/Hz is half a percent.
     assert!(low > -2.0 && high < 2.0, "{low} {high}");
 }
+
+/// A test drawn at random: samples of 100 to 2000 Hz, a rig from soft to stiff, static friction 2 to 40 % above the
+/// kinetic one, counts of a card.
+struct Drawn {
+    sampled_hz: f64,
+    static_n: f64,
+    kinetic_n: f64,
+    rig_n_per_m: f64,
+    noise_n: f64,
+    count_n: f64,
+}
+
+impl Drawn {
+    fn of(seed: u64) -> Self {
+        let mut random = Random::new(seed ^ 0x5eed);
+        let mut between = |low: f64, high: f64| low * libm::pow(high / low, random.uniform());
+        let kinetic_n = 180.0;
+        Self {
+            sampled_hz: between(100.0, 2000.0),
+            static_n: kinetic_n * (1.0 + between(0.02, 0.4)),
+            kinetic_n,
+            rig_n_per_m: between(2e4, 2e6),
+            noise_n: between(0.2, 2.0),
+            count_n: between(0.05, 0.5),
+        }
+    }
+
+    /// The test, the block without inertia dragged by the rig, with steps far below those of the samples.
+    fn made(&self, seed: u64) -> SyntheticTest {
+        let (amplitude_m, frequency_hz) = (0.02, 0.5);
+        let mut random = Random::new(seed);
+        let dt_s = 1.0 / self.sampled_hz;
+        let n = (9.3 / frequency_hz / dt_s) as usize;
+        let fine = (1000.0 * dt_s / 0.02).ceil().max(12.0) as usize;
+        let wander = TAU * random.uniform();
+        let (mut x, mut sliding) = (0.0_f64, false);
+        let mut out = SyntheticTest { times_s: vec![], displacement_m: vec![], force_n: vec![] };
+        for i in 0..n * fine {
+            let t = i as f64 * dt_s / fine as f64;
+            let turns = TAU * frequency_hz * t;
+            let target = amplitude_m * libm::sin(turns + 0.03 * libm::sin(0.3819 * turns + wander));
+            let h = dt_s / fine as f64;
+            let demand = self.rig_n_per_m * (target - x) - SPRING * x;
+            sliding |= demand.abs() > self.static_n;
+            if sliding {
+                let f = self.kinetic_n.copysign(demand);
+                let moved = (x + h / DAMPER * (self.rig_n_per_m * target - f))
+                    / (1.0 + h / DAMPER * (self.rig_n_per_m + SPRING));
+                if (moved - x) * demand > 0.0 { x = moved } else { sliding = false }
+            }
+            if i % fine == 0 {
+                let force_n = self.rig_n_per_m * (target - x) + self.noise_n * random.normal();
+                out.times_s.push(t);
+                out.displacement_m.push(x + 1e-5 * random.normal());
+                out.force_n.push(self.count_n * (force_n / self.count_n).round());
+            }
+        }
+        out
+    }
+}
+
+/// How many of some drawn tests have intervals that cover the truth, or say that the parameter is not determined.
+fn held_by_drawn(seeds: u64) -> std::collections::BTreeMap<String, u64> {
+    let mut held = std::collections::BTreeMap::new();
+    for seed in 0..seeds {
+        let drawn = Drawn::of(seed);
+        let made = drawn.made(seed);
+        let fit = cyclic(&test(&made)).unwrap();
+        for estimate in estimates(&[&fit], 300.0, None).estimates {
+            let truth = match estimate.path.as_str() {
+                path if path.contains("kinetic") => drawn.kinetic_n,
+                path if path.contains("static") => drawn.static_n,
+                "slider.spring" => SPRING,
+                _ => DAMPER,
+            };
+            let covers = |[low, high]: [f64; 2]| low <= truth && truth <= high;
+            let holds = estimate.interval().is_none_or(covers);
+            *held.entry(estimate.path).or_insert(0) += u64::from(holds);
+        }
+    }
+    held
+}
+
+/// With samples far apart, a stiff rig, or a drop that is hardly there, static friction came out a tenth off or more;
+/// behind a soft rig kinetic friction was low and the damper three times too large.
+#[test]
+fn prop_intervals_hold_however_a_test_is_sampled() {
+    // At 95 % fewer than 25 of 32 have a chance of 1e-4.
+    let held = held_by_drawn(32);
+    assert!(held.values().all(|count| *count >= 26), "{held:?}");
+}
+
+#[test]
+#[ignore = "200 tests: cargo xtask coverage"]
+fn coverage_cyclic_drawn() {
+    let held = held_by_drawn(200);
+    assert!(held.values().all(|count| *count >= 181), "{held:?}");
+}

@@ -24,12 +24,12 @@
 //! derivatives tell. Where the noise counts at all, the response of the best values is therefore fitted
 //! anew under each draw.
 
-use super::{Data, Fitted, centred, weighed};
+use super::{Data, Fitted, weighed};
 use crate::laboratory::fit::{Interval, Problem, refine};
 use crate::model::Model;
 use crate::motion::GroundMotion;
 use crate::numerics::algebra::linear_fit;
-use crate::numerics::distribution::student_quantile;
+use crate::numerics::distribution::{normal_quantile, student_quantile};
 use crate::numerics::fractile::upper_median;
 use crate::numerics::random::Random;
 
@@ -60,12 +60,23 @@ pub(super) fn noise(motion: &GroundMotion) -> f64 {
     stretches.fold(by_thirds, f64::min)
 }
 
+/// What is not known of the table's accelerometer.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OfTable {
+    /// Standard deviation of its noise in m/s².
+    pub noise_m_per_s2: f64,
+    /// Standard deviation of its gain.
+    pub gain: f64,
+}
+
 /// What is not known of the table motion, for one parameter.
 struct Moves {
     /// Standard deviation of its estimate through the noise.
     deviation: f64,
     /// How far its estimate moves under the curved motion.
     shift: f64,
+    /// How far it moves where the gain is off by its standard deviation.
+    by_gain: f64,
 }
 
 /// Widens intervals by what moves the estimates through the table motion: the noise by its square, the
@@ -75,15 +86,17 @@ pub(super) fn widen(
     problem: &Problem,
     data: &Data,
     scales: &[f64],
-    noise_m_per_s2: f64,
+    of_table: OfTable,
     seed: u64,
 ) {
     let values = problem.parameters(&found.minimum.unit);
-    let Some(moves) = moves(found, problem, data, scales, noise_m_per_s2, seed) else { return };
+    let Some(moves) = moves(found, problem, data, scales, of_table, seed) else { return };
     let t = student_quantile(0.95, DRAWS as f64);
     for ((interval, moves), value) in found.intervals.iter_mut().zip(moves).zip(values) {
         let Some(Interval { ends, .. }) = interval else { continue };
-        let [below, above] = ends.map(|end| libm::hypot(end - value, t * moves.deviation));
+        let by_gain = normal_quantile(0.975) * moves.by_gain;
+        let by_table = libm::hypot(t * moves.deviation, by_gain);
+        let [below, above] = ends.map(|end| libm::hypot(end - value, by_table));
         *ends = [value + moves.shift.min(0.0) - below, value + moves.shift.max(0.0) + above];
     }
 }
@@ -94,7 +107,7 @@ fn moves(
     problem: &Problem,
     data: &Data,
     scales: &[f64],
-    noise_m_per_s2: f64,
+    OfTable { noise_m_per_s2, gain }: OfTable,
     seed: u64,
 ) -> Option<Vec<Moves>> {
     let derivatives = Derivatives::new(found, problem, data, scales)?;
@@ -127,8 +140,12 @@ fn moves(
         Some(curved) => derivatives.moved_by(&curved)?,
         None => vec![0.0; noise.len()],
     };
-    let both = noise.into_iter().zip(shifts);
-    Some(both.map(|(deviation, shift)| Moves { deviation, shift }).collect())
+    let by_gain = match gain {
+        0.0 => vec![0.0; noise.len()],
+        gain => derivatives.moved_by(&data.motion.scaled(1.0 / (1.0 + gain)).ok()?)?,
+    };
+    let all = noise.into_iter().zip(shifts).zip(by_gain);
+    Some(all.map(|((deviation, shift), by_gain)| Moves { deviation, shift, by_gain }).collect())
 }
 
 /// How far the best values move when their own response is fitted under another table motion.
@@ -140,14 +157,17 @@ fn fitted_anew(
     motion: &GroundMotion,
 ) -> Option<Vec<f64>> {
     let values = problem.parameters(&found.minimum.unit);
-    // Predicted less measured: the measured values fall out of the difference.
-    let best = data.of_motion(&(data.build)(&values)?, data.motion)?;
+    // What the best values and the transducers as they were found show, without noise.
+    let best = data.of_model(&(data.build)(&values)?, scales)?;
+    let measured = data.sights(&(data.build)(&values)?, data.motion)?;
+    let shown: Vec<Vec<f64>> = best
+        .iter()
+        .zip(&measured)
+        .map(|(best, sight)| best.left.iter().zip(&sight.measured).map(|(r, m)| m + r).collect())
+        .collect();
     let residuals = |p: &[f64]| {
-        let mut lists = data.of_motion(&(data.build)(p)?, motion)?;
-        for (r, best) in lists.iter_mut().flatten().zip(best.iter().flatten()) {
-            *r -= best;
-        }
-        Some(weighed(&centred(lists, &data.free), scales))
+        let sights = data.sights(&(data.build)(p)?, motion)?;
+        Some(weighed(&data.remainders(&sights, Some(&shown), scales)?, scales))
     };
     let again = Problem { bounds: problem.bounds.clone(), residuals: &residuals };
     let moved = problem.parameters(&refine(&again, &found.minimum.unit)?.unit);
@@ -198,8 +218,8 @@ impl<'a> Derivatives<'a> {
 
     /// How far the estimates move under another table motion.
     fn moved_by(&self, motion: &GroundMotion) -> Option<Vec<f64>> {
-        let lists = self.data.of_motion(&self.model, motion)?;
-        let other = weighed(&centred(lists, &self.data.free), self.scales);
+        let sights = self.data.sights(&self.model, motion)?;
+        let other = weighed(&self.data.remainders(&sights, None, self.scales)?, self.scales);
         let row = |i: usize| self.columns.iter().map(|column| column[i]).collect::<Vec<f64>>();
         let rows: Vec<(Vec<f64>, f64)> =
             (0..self.plain.len()).map(|i| (row(i), self.plain[i] - other[i])).collect();

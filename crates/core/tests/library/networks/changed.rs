@@ -231,7 +231,8 @@ fn prop_no_prefix_reads_as_the_whole() {
     for (name, bytes, options) in all_samples() {
         let whole = record::read(&name, &bytes, &options).ok();
         let of_others = ["AT2", "VT2", "csv", "txt"].iter().any(|e| name.ends_with(e));
-        if of_others && name != "nsmn.txt" {
+        let of_columns = ["exsim.acc", "sdsu.bbp"].contains(&name.as_str());
+        if (of_others && name != "nsmn.txt") || of_columns {
             continue;
         }
         let step = (bytes.len() / 2000).max(1);
