@@ -43,7 +43,7 @@ pub fn assess<const KIND: usize>(args: &AssessArgs<KIND>) -> Result<ExitCode, Fa
 }
 
 /// Says how to go on, should Ctrl-C end what follows.
-fn tell_what_is_kept(kept: &KeptFile, out: PathBuf) {
+pub(super) fn tell_what_is_kept(kept: &KeptFile, out: PathBuf) {
     let runs = kept.count();
     on_interrupt(move || {
         let (runs, out) = (count(runs.load(Ordering::Relaxed)), out.display());

@@ -152,46 +152,47 @@ fn interrupt_leaves_nothing_behind() {
     interrupted(&folder, &["run", "model.toml", "--out", "old"], writing);
 }
 
-/// An analysis of pairs that is interrupted says what it has kept, and the same command goes on with that to the same
-/// result.
+/// An analysis or a suite of pairs that is interrupted says what it has kept, and the same command goes on with that to the
+/// same result.
 #[test]
 fn interrupted_pairs_go_on() {
     let model = "[block]\nmass = \"100 t\"\n[slider]\nstatic_friction = 0.06\nkinetic_friction = 0.05\n\
                  radius = \"2 m\"\n[[storey]]\nmass = \"50 t\"\nperiod = \"0.5 s\"\ndamping_ratio = 0.02\n";
     let folder = Folder::with_model("pairs-go-on", model);
     let records = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/records");
-    let [x, y] = ["taft-021.txt", "taft-111.txt"].map(|name| format!("{records}/{name}"));
+    let [x, y] = ["taft-021.txt", "taft-111.txt"]
+        .map(|name| std::fs::read_to_string(format!("{records}/{name}")).unwrap());
+    for i in 0..20 {
+        folder.write(&format!("{i:02}-x.txt"), &x);
+        folder.write(&format!("{i:02}-y.txt"), &y);
+    }
     let levels =
         (1..=80).map(|i| format!("{} g", 0.05 * f64::from(i))).collect::<Vec<_>>().join(", ");
-    let ida = |out: &'static str| {
-        let pair = [
-            "ida",
-            "model.toml",
-            "--records",
-            &x,
-            "--second",
-            &y,
-            "--units",
-            "g",
-            "--dt",
-            "0.01 s",
-        ];
-        let rest = ["--scale-to", &levels, "--limit", "0.3 m", "-j", "1", "-q", "--out", out];
-        pair.into_iter().chain(rest).map(str::to_owned).collect::<Vec<String>>()
-    };
-    fn words(of: &[String]) -> Vec<&str> {
-        of.iter().map(String::as_str).collect()
+    let read = ["--units", "g", "--dt", "0.01 s", "-j", "1", "-q"];
+    let of_one = ["ida", "model.toml", "--records", "00-x.txt", "--second", "00-y.txt"];
+    let ida = [&of_one[..], &read, &["--scale-to", &levels, "--limit", "0.3 m"]].concat();
+    let all = ["run", "model.toml", "--records", "*-x.txt", "--second", "*-y.txt"];
+    let suite =
+        [&all[..], &read, &["--set", "slider.bounds={ lower = 0.8, upper = 1.2 }"]].concat();
+    for (name, command, runs) in [("ida", ida, 80), ("suite", suite, 60)] {
+        let (begun_in, whole) = (format!("{name}-out"), format!("{name}-whole"));
+        let to = |out: &'_ str| [&command[..], &["--out", out]].concat().join("\n");
+        fn words(of: &str) -> Vec<&str> {
+            of.split('\n').collect()
+        }
+        let path = folder.path().join(&begun_in).join("runs.kept");
+        let kept = || std::fs::read_to_string(&path).unwrap_or_default();
+        let begun = |_: &Folder| kept().lines().count() >= 3;
+        let output = sent_an_interrupt(&folder, &words(&to(&begun_in)), begun);
+        let said = text(&output.stderr);
+        let go_on = format!("are kept in {begun_in}; the same command goes on with them");
+        assert!(said.contains(&go_on), "{said}");
+        let count = kept().lines().count();
+        assert!((3..runs).contains(&count), "{count} runs were kept");
+        folder.stdout(&words(&to(&begun_in)));
+        folder.stdout(&words(&to(&whole)));
+        let summary = |out: &str| folder.read(&format!("{out}/summary.json"));
+        assert_eq!(summary(&begun_in), summary(&whole));
+        assert_eq!(kept(), "", "the results stand for their runs");
     }
-    let kept = || std::fs::read_to_string(folder.path().join("out/runs.kept")).unwrap_or_default();
-    let begun = |_: &Folder| kept().lines().count() >= 3;
-    let output = sent_an_interrupt(&folder, &words(&ida("out")), begun);
-    let said = text(&output.stderr);
-    assert!(said.contains("are kept in out; the same command goes on with them"), "{said}");
-    let count = kept().lines().count();
-    assert!((3..80).contains(&count), "{count} runs were kept");
-    folder.stdout(&words(&ida("out")));
-    folder.stdout(&words(&ida("whole")));
-    let summary = |out: &str| folder.read(&format!("{out}/summary.json"));
-    assert_eq!(summary("out"), summary("whole"));
-    assert_eq!(kept(), "", "the results stand for their runs");
 }

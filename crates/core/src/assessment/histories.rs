@@ -3,6 +3,7 @@
 
 pub mod alone;
 pub mod floors;
+mod kept;
 pub mod left_out;
 pub mod over_suite;
 pub mod profiles;
@@ -27,6 +28,7 @@ use crate::response::{
 };
 use crate::study::cases::{Case, CaseRun, status};
 use crate::study::engine::Engine;
+use crate::study::kept::{KeptRuns, hash_of_model, hash_of_record, key};
 use crate::study::{Certified, Record};
 use crate::table::{Cells, Column, Table};
 
@@ -384,12 +386,22 @@ pub fn run_histories(
             let (record, bound) = (i / bounds.len(), i % bounds.len());
             Case { record, bound, scale: factors[record], ..Case::default() }
         };
+        let hashes = hashes(model.suite, kept, engine)?;
         let run = |i: usize| {
             let (case, bound) = (case(i), &bounds[i % bounds.len()]);
+            let keeper = keeper(model, (&case, bound), &hashes, engine);
+            let before = keeper.as_ref().and_then(|(all, key)| all.find(key));
+            if let Some(run) = before.and_then(|line| kept::read(&line)) {
+                return CaseRun::of(case, Ok(run));
+            }
             let ran = with_bound(model, &case, bound, kept.floor_spectra, engine).map(|judged| {
                 let alone = alone::of(model, &case, bound, engine).ok().flatten();
                 RunFigures { alone, ..RunFigures::of(bound, judged) }
             });
+            if let (Some((all, key)), Some(line)) = (keeper, ran.as_ref().ok().and_then(kept::line))
+            {
+                all.keep(&key, &line);
+            }
             CaseRun::of(case, ran)
         };
         let mut ran = engine.runs(cases, run)?.into_iter();
@@ -448,6 +460,29 @@ pub fn run_histories(
         matched,
         notices,
     })
+}
+
+/// Hashes of the records that are run in two directions, where runs are kept.
+fn hashes(
+    suite: &Suite,
+    kept: Kept<'_>,
+    engine: &Engine<'_>,
+) -> Result<Vec<Option<String>>, Stopped> {
+    let keeps = engine.kept().is_some() && !kept.floor_spectra;
+    let count = if keeps { suite.records.len() } else { 0 };
+    engine.map(count, |i| Ok(hash_of_record(&suite.records[i])))
+}
+
+/// Where a run is kept, and its key.
+fn keeper<'a>(
+    model: &ModelOn<'_>,
+    (case, bound): (&Case, &Bound),
+    hashes: &[Option<String>],
+    engine: &Engine<'a>,
+) -> Option<(&'a dyn KeptRuns, String)> {
+    let of_record = hashes.get(case.record)?.as_deref()?;
+    let of_design = hash_of_model(&bound.of(&model.analysis.model), model.analysis.tail_s);
+    Some((engine.kept()?, key(&of_design, of_record, case.scale)))
 }
 
 /// Refuses a name that no record of the models has.

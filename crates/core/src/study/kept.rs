@@ -9,6 +9,7 @@ use super::cases::Noticed;
 use super::records::Record;
 use crate::hash::sha256_hex;
 use crate::input::Parts;
+use crate::model::Model;
 use crate::notice::NoticeKind;
 
 /// Where answers are kept, as lines of text by their keys.
@@ -56,7 +57,11 @@ pub(crate) fn key(of_design: &str, of_record: &str, scale: f64) -> String {
 
 /// The hash of a design.
 pub(crate) fn hash_of_design(parts: &Parts) -> String {
-    let Parts { model, tail_s, .. } = parts;
+    hash_of_model(&parts.model, parts.tail_s)
+}
+
+/// The hash of a model and of the free vibration after its motions, in s.
+pub(crate) fn hash_of_model(model: &Model, tail_s: f64) -> String {
     sha256_hex(format!("{} {model:?} {tail_s:?}", env!("CARGO_PKG_VERSION")).as_bytes())
 }
 
@@ -81,10 +86,26 @@ pub(crate) fn line<R: InNumbers>(answer: &R, noticed: &[Noticed]) -> Option<Stri
     for Noticed { kind, is_severe } in noticed {
         let _ = write!(line, "{}{},", if *is_severe { "!" } else { "" }, kind.name());
     }
-    for number in numbers {
-        let _ = write!(line, " {:016x}", number.to_bits());
-    }
+    line.push(' ');
+    line.push_str(&bits(&numbers));
     Some(line)
+}
+
+/// The bits of numbers.
+pub(crate) fn bits(numbers: &[f64]) -> String {
+    let words: Vec<String> = numbers.iter().map(|x| format!("{:016x}", x.to_bits())).collect();
+    words.join(" ")
+}
+
+/// The numbers of such bits; `None` of any other text.
+pub(crate) fn of_bits(text: &str) -> Option<Vec<f64>> {
+    let bits = text.split_terminator(' ').map(|word| u64::from_str_radix(word, 16).ok());
+    bits.map(|bits| bits.map(f64::from_bits)).collect()
+}
+
+/// The kind of a notice by its name.
+pub(crate) fn kind_of(name: &str) -> Option<NoticeKind> {
+    NoticeKind::ALL.iter().copied().find(|kind| kind.name() == name)
 }
 
 /// What such a line says; `None` of any other text.
@@ -95,12 +116,9 @@ pub(crate) fn read<R: InNumbers>(line: &str) -> Option<(R, Vec<Noticed>)> {
             Some(name) => (true, name),
             None => (false, word),
         };
-        let kind = NoticeKind::ALL.iter().copied().find(|kind| kind.name() == name)?;
-        Some(Noticed { kind, is_severe })
+        Some(Noticed { kind: kind_of(name)?, is_severe })
     });
-    let bits = numbers.split(' ').map(|word| u64::from_str_radix(word, 16).ok());
-    let numbers = bits.map(|bits| bits.map(f64::from_bits)).collect::<Option<Vec<f64>>>()?;
-    Some((R::of(numbers)?, noticed.collect::<Option<Vec<Noticed>>>()?))
+    Some((R::of(of_bits(numbers)?)?, noticed.collect::<Option<Vec<Noticed>>>()?))
 }
 
 #[cfg(test)]
