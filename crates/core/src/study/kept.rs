@@ -99,7 +99,8 @@ pub(crate) fn bits(numbers: &[f64]) -> String {
 
 /// The numbers of such bits; `None` of any other text.
 pub(crate) fn of_bits(text: &str) -> Option<Vec<f64>> {
-    let bits = text.split_terminator(' ').map(|word| u64::from_str_radix(word, 16).ok());
+    let whole = |word: &str| (word.len() == 16).then(|| u64::from_str_radix(word, 16).ok());
+    let bits = text.split_terminator(' ').map(|word| whole(word).flatten());
     bits.map(|bits| bits.map(f64::from_bits)).collect()
 }
 
