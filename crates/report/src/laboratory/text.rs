@@ -53,7 +53,7 @@ pub fn aligned(rows: &[Vec<String>]) -> String {
 
 /// The same rows, those with cells of many words as several under each other.
 pub fn wrapped(rows: &[Vec<String>]) -> Vec<Vec<String>> {
-    const MOST: usize = 46;
+    const MOST: usize = 50;
     let lines = |cell: &String| {
         let indent = " ".repeat(cell.chars().take_while(|c| *c == ' ').count());
         let mut lines = vec![indent.clone()];
@@ -154,10 +154,10 @@ mod tests {
 
     #[test]
     fn cells_of_many_words_go_on_below() {
-        let words = "one two three four five six seven eight nine ten eleven".to_owned();
+        let words = "one two three four five six seven eight nine ten eleven twelve".to_owned();
         let rows = wrapped(&[vec![format!("  {words}"), "1".to_owned()]]);
-        let first = "  one two three four five six seven eight nine";
-        let expected = [[first, "1"], ["    ten eleven", ""]];
+        let first = "  one two three four five six seven eight nine ten";
+        let expected = [[first, "1"], ["    eleven twelve", ""]];
         assert_eq!(rows, expected.map(|row| row.map(str::to_owned).to_vec()));
         let short = vec![vec!["  a b".to_owned()]];
         assert_eq!(wrapped(&short), short);
