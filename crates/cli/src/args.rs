@@ -45,7 +45,7 @@ Examples:
   slipstick run - --json < tank.toml
   slipstick run tank.toml --records 'suite/*.AT2' --scale-to \"0.4 g\" --floor-spectrum --out out
   slipstick run tank.toml --records 'x/*.AT2' --second 'y/*.AT2' --periods \"0.6 s..3.8 s\" \\
-      --code-spectrum \"sds = 1.2 g, sd1 = 0.8 g, tl = 8 s\" --hazard MCE_R --out out
+      --code-spectrum \"sds = 1.2 g, sd1 = 0.8 g, tl = 8 s\" --hazard MCE_R --code asce7-22 --out out
   slipstick run flat.toml pendulum.toml --records suite --measure \"Sa(1.2 s)\" --scale-to \"0.5 g\"
 
 Values are numbers with a unit, \"0.3 g\"; slipstick schema --units lists the units. Paths of

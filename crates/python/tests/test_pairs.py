@@ -59,6 +59,21 @@ CASES: list[tuple[str, Callable[..., ss.Assessment], list[Any], dict[str, Any], 
         "runs",
     ),
     (
+        "run",
+        ss.suite,
+        [],
+        {
+            "code_spectrum": "sds = 1 g, sd1 = 0.6 g, tl = 8 s",
+            "code": "asce7-22",
+            "code_values": ["R = 4", "I_e = 1.5"],
+            "hazard": ["MCE_R", "DE=0.5"],
+            "periods": "0.4 s..4 s",
+        },
+        ["--code-spectrum", "sds = 1 g, sd1 = 0.6 g, tl = 8 s", "--periods", "0.4 s..4 s", "--code", "asce7-22"]
+        + ["--code-values", "R = 4, I_e = 1.5", "--hazard", "MCE_R", "--hazard", "DE=0.5"],
+        "runs",
+    ),
+    (
         "spectrum",
         ss.spectrum,
         [{"slider.radius": "1..3 m:3"}],

@@ -53,18 +53,19 @@ pub fn aligned(rows: &[Vec<String>]) -> String {
 
 /// The same rows, those with cells of many words as several under each other.
 pub fn wrapped(rows: &[Vec<String>]) -> Vec<Vec<String>> {
-    const MOST: usize = 46;
+    const MOST: usize = 50;
     let lines = |cell: &String| {
-        let mut lines = vec![String::new()];
-        for word in cell.split(' ') {
+        let indent = " ".repeat(cell.chars().take_while(|c| *c == ' ').count());
+        let mut lines = vec![indent.clone()];
+        for word in cell.split_whitespace() {
             let line = lines.last().map_or(0, |line| line.chars().count());
             match lines.last_mut() {
-                Some(last) if line == 0 => last.push_str(word),
+                Some(last) if line == indent.len() => last.push_str(word),
                 Some(last) if line + 1 + word.chars().count() <= MOST => {
                     last.push(' ');
                     last.push_str(word);
                 }
-                _ => lines.push(format!("  {word}")),
+                _ => lines.push(format!("{indent}  {word}")),
             }
         }
         lines
@@ -149,6 +150,17 @@ mod tests {
         assert_eq!(groups[0], [row("n a b"), row("m 1 2")]);
         assert_eq!(groups[1], [row("n c d"), row("m 3 4")]);
         assert_eq!(in_groups(&[], 3), vec![Vec::<Vec<String>>::new()]);
+    }
+
+    #[test]
+    fn cells_of_many_words_go_on_below() {
+        let words = "one two three four five six seven eight nine ten eleven twelve".to_owned();
+        let rows = wrapped(&[vec![format!("  {words}"), "1".to_owned()]]);
+        let first = "  one two three four five six seven eight nine ten";
+        let expected = [[first, "1"], ["    eleven twelve", ""]];
+        assert_eq!(rows, expected.map(|row| row.map(str::to_owned).to_vec()));
+        let short = vec![vec!["  a b".to_owned()]];
+        assert_eq!(wrapped(&short), short);
     }
 
     #[test]

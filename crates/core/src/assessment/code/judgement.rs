@@ -69,7 +69,7 @@ pub struct JudgedRule {
     pub clause: String,
     /// What may be used where it holds; none where the design must hold it.
     pub condition: Option<String>,
-    /// Whether it is of the analysis, not of the structure: it governs nothing while it holds.
+    /// Whether it is of the analysis, not of the structure: then it governs nothing.
     pub formal: bool,
     /// How demand and capacity are shown.
     pub unit: CodeUnit,
@@ -264,11 +264,11 @@ impl Judgement {
         self.rules.iter().filter(|rule| rule.condition.is_none())
     }
 
-    /// The judged requirement with the largest ratio.
+    /// The judged requirement of the structure with the largest ratio.
     #[must_use]
     pub fn governing(&self) -> Option<(&JudgedRule, &Compared)> {
         let judged = self.required().filter_map(|rule| Some((rule, rule.found.as_ref().ok()?)));
-        let judged = judged.filter(|(rule, found)| !(rule.formal && found.ok));
+        let judged = judged.filter(|(rule, _)| !rule.formal);
         judged.reduce(|a, b| if b.1.ratio > a.1.ratio { b } else { a })
     }
 
@@ -319,6 +319,13 @@ pub fn verdict(judgement: &Judgement) -> String {
         (_, 0) => format!("all {judged} judged {} hold", plural(judged)),
         _ => format!("{fail} of {judged} judged {} FAIL", plural(judged)),
     };
+    // What fails of the analysis governs nothing, and is named.
+    let fails = |rule: &&JudgedRule| rule.formal && rule.found.as_ref().is_ok_and(|of| !of.ok);
+    let formal = judgement
+        .required()
+        .filter(fails)
+        .map(|rule| format!(". Fails of the analysis: {} ({})", rule.requirement, rule.clause));
+    let formal: String = formal.collect();
     let governs = judgement.governing().map_or_else(String::new, |(rule, compared)| {
         let Side { bound, direction } = compared.side;
         let bound = bound.map(|bound| format!(", {bound} friction"));
@@ -341,5 +348,9 @@ pub fn verdict(judgement: &Judgement) -> String {
             (fail, _) => format!(". {name} not permitted: {fail} of {of} conditions fail"),
         }
     });
-    format!("{}: {first}{governs}{unjudged}{}.", judgement.title, procedures.collect::<String>())
+    format!(
+        "{}: {first}{governs}{formal}{unjudged}{}.",
+        judgement.title,
+        procedures.collect::<String>()
+    )
 }

@@ -90,7 +90,7 @@ pub(super) struct Rule {
     pub at: Vec<String>,
     /// What may be used where it holds; none where the design must hold it.
     pub condition: Option<String>,
-    /// Whether it is of the analysis, not of the structure: it governs nothing while it holds.
+    /// Whether it is of the analysis, not of the structure: then it governs nothing.
     pub formal: bool,
     pub unit: CodeUnit,
     pub asked: Asked,
@@ -425,7 +425,7 @@ mod tests {
             [("R_I".to_owned(), 2.0), ("V_wind".to_owned(), 400e3)]
         );
         let error = |text: &str| code.clone().with_values(&[text]).unwrap_err().to_string();
-        assert!(error("RI = 2").contains("nearest is \"R_I\""), "{}", error("RI = 2"));
+        assert!(error("Vwind = 2 kN").contains("nearest is \"V_wind\""));
         assert!(error("V_wind = 400").contains("with a unit, 12 kN"), "{}", error("V_wind = 400"));
         assert!(error("R").starts_with("code-values: expected values by their names"));
         assert!(error("R = 1, R = 2").contains("one value of R"));
