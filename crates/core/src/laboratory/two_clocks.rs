@@ -93,7 +93,12 @@ impl Aligned {
     }
 
     /// The test with both histories in place of those of the files.
-    fn of(self, mut all: Measured, displacement: MeasuredSeries, force: MeasuredSeries) -> Measured {
+    fn of(
+        self,
+        mut all: Measured,
+        displacement: MeasuredSeries,
+        force: MeasuredSeries,
+    ) -> Measured {
         let Self { times_s, displacement: x, force: f, shift_s } = self;
         let message = format!(
             "displacement and force have clocks of their own: that of the force was taken as {:.2} ms {}, where the loop \\
