@@ -257,7 +257,7 @@ pub enum Fitted {
         /// Its values there, in SI.
         values: Vec<f64>,
         /// The fit.
-        fit: FreeVibration,
+        fit: Box<FreeVibration>,
     },
     /// A shaking-table record.
     ShakingTable {
@@ -529,7 +529,8 @@ pub fn free_vibration(
         warnings.extend(decided);
         model = Some(analysis);
     }
-    let found = Fitted::FreeVibration { channel: series.channel, times_s, values, fit };
+    let found =
+        Fitted::FreeVibration { channel: series.channel, times_s, values, fit: Box::new(fit) };
     Ok(Identified { estimates, model, warnings, found })
 }
 

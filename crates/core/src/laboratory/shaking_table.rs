@@ -187,67 +187,14 @@ fn fit(test: &TableTest, engine: &Engine<'_>) -> Result<TableFit, TableError> {
     let count = test.parameters.len() as u64;
     engine.plan(RUNS.iter().sum::<u64>() * count);
     let known = |stage: usize| engine.replan(RUNS[stage] * count, data.runs.take());
-    let names = || {
-        let names: Vec<&str> = test.parameters.iter().map(|p| p.path.as_str()).collect();
-        names.join(", ")
-    };
-    let no_response = || TableError::NoResponse { parameters: names() };
+    let no_response = || TableError::NoResponse { parameters: names(test) };
     let bounds: Vec<[f64; 2]> = test.parameters.iter().map(|p| [p.low, p.high]).collect();
-    // First each quantity over its own size, then over what the fit leaves of it; lags move to where the
-    // response shows them.
-    let mut scales: Vec<f64> = chosen.series.iter().map(|s| rms(&s.values).max(1e-300)).collect();
-    let mut minimum: Option<Minimum> = None;
-    let mut settled_once = data.instruments.iter().all(|instrument| instrument.lag_s == 0.0);
-    let mut look_again = false;
-    for turn in 0..MOST_SCALES {
-        let residuals = |p: &[f64]| data.residuals(p, &scales);
-        let problem = Problem { bounds: bounds.clone(), residuals: &residuals };
-        let found = match &minimum {
-            None => global(&problem, test.start.as_deref(), test.seed),
-            // The first search was made without lags: it may have ended in another valley.
-            Some(minimum) if look_again => {
-                let start = problem.parameters(&minimum.unit);
-                let refined = refine(&problem, &minimum.unit);
-                let again = global(&problem, Some(&start), test.seed);
-                [refined, again].into_iter().flatten().min_by(|a, b| a.sse.total_cmp(&b.sse))
-            }
-            Some(minimum) => refine(&problem, &minimum.unit),
-        };
-        let found = found.ok_or_else(no_response)?;
-        let expected = LEAST_RESIDUALS * bounds.len();
-        if found.count < expected {
-            let found = found.count;
-            return Err(TableError::TooShort { parameters: names(), expected, found });
-        }
-        let values = problem.parameters(&found.unit);
-        let model = (test.build)(&values).ok_or_else(no_response)?;
-        let finely = turn > 0;
-        if !settled_once || turn == 0 {
-            data.look_for_lags(&model, &scales, finely).ok_or_else(no_response)?;
-        }
-        let left = data.of_model(&model, &scales).ok_or_else(no_response)?;
-        let moved = data.move_lags(&left);
-        let next: Vec<f64> = left
-            .iter()
-            .zip(&chosen.series)
-            // A fit without noise is weighed by the last digits of the size.
-            .map(|(left, series)| rms(&left.left).max(1e-9 * rms(&series.values)).max(1e-300))
-            .collect();
-        let settled = next.iter().zip(&scales).all(|(a, b)| (a / b - 1.0).abs() < 0.01);
-        minimum = Some(found);
-        scales = next;
-        data.weight.set(memory(&left));
-        if settled_once && settled && !moved {
-            break;
-        }
-        look_again = !settled_once && settled && !moved;
-        settled_once |= look_again;
-    }
+    let (scales, minimum) = searched(test, &data, &bounds)?;
     known(0);
     let residuals = |p: &[f64]| data.residuals(p, &scales);
     let problem = Problem { bounds, residuals: &residuals };
-    let minimum = minimum.and_then(|minimum| refine(&problem, &minimum.unit));
-    let mut found = intervals(&problem, &data, &scales, minimum.ok_or_else(no_response)?);
+    let minimum = refine(&problem, &minimum.unit).ok_or_else(no_response)?;
+    let mut found = intervals(&problem, &data, &scales, minimum);
     known(1);
     let table_noise_m_per_s2 = drive::noise(&motion);
     let of_table = drive::OfTable { noise_m_per_s2: table_noise_m_per_s2, gain: table_gain };
@@ -313,6 +260,73 @@ fn fit(test: &TableTest, engine: &Engine<'_>) -> Result<TableFit, TableError> {
         table_noise_m_per_s2,
         warnings,
     })
+}
+
+/// Names of what is fitted.
+fn names(test: &TableTest) -> String {
+    let names: Vec<&str> = test.parameters.iter().map(|p| p.path.as_str()).collect();
+    names.join(", ")
+}
+
+/// The standard deviations of what is left of each quantity, and the best values.
+fn searched(
+    test: &TableTest,
+    data: &Data,
+    bounds: &[[f64; 2]],
+) -> Result<(Vec<f64>, Minimum), TableError> {
+    let no_response = || TableError::NoResponse { parameters: names(test) };
+    // First each quantity over its own size, then over what the fit leaves of it; lags move to where the
+    // response shows them.
+    let mut scales: Vec<f64> =
+        data.measured.series.iter().map(|s| rms(&s.values).max(1e-300)).collect();
+    let mut minimum: Option<Minimum> = None;
+    let mut settled_once = data.instruments.iter().all(|instrument| instrument.lag_s == 0.0);
+    let mut look_again = false;
+    for turn in 0..MOST_SCALES {
+        let residuals = |p: &[f64]| data.residuals(p, &scales);
+        let problem = Problem { bounds: bounds.to_vec(), residuals: &residuals };
+        let found = match &minimum {
+            None => global(&problem, test.start.as_deref(), test.seed),
+            // The first search was made without lags: it may have ended in another valley.
+            Some(minimum) if look_again => {
+                let start = problem.parameters(&minimum.unit);
+                let refined = refine(&problem, &minimum.unit);
+                let again = global(&problem, Some(&start), test.seed);
+                [refined, again].into_iter().flatten().min_by(|a, b| a.sse.total_cmp(&b.sse))
+            }
+            Some(minimum) => refine(&problem, &minimum.unit),
+        };
+        let found = found.ok_or_else(no_response)?;
+        let expected = LEAST_RESIDUALS * bounds.len();
+        if found.count < expected {
+            let found = found.count;
+            return Err(TableError::TooShort { parameters: names(test), expected, found });
+        }
+        let values = problem.parameters(&found.unit);
+        let model = (data.build)(&values).ok_or_else(no_response)?;
+        let finely = turn > 0;
+        if !settled_once || turn == 0 {
+            data.look_for_lags(&model, &scales, finely).ok_or_else(no_response)?;
+        }
+        let left = data.of_model(&model, &scales).ok_or_else(no_response)?;
+        let moved = data.move_lags(&left);
+        let next: Vec<f64> = left
+            .iter()
+            .zip(&data.measured.series)
+            // A fit without noise is weighed by the last digits of the size.
+            .map(|(left, series)| rms(&left.left).max(1e-9 * rms(&series.values)).max(1e-300))
+            .collect();
+        let settled = next.iter().zip(&scales).all(|(a, b)| (a / b - 1.0).abs() < 0.01);
+        minimum = Some(found);
+        scales = next;
+        data.weight.set(memory(&left));
+        if settled_once && settled && !moved {
+            break;
+        }
+        look_again = !settled_once && settled && !moved;
+        settled_once |= look_again;
+    }
+    minimum.map(|minimum| (scales, minimum)).ok_or_else(no_response)
 }
 
 /// How many samples one independent sample is worth, at most of all quantities.

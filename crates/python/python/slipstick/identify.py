@@ -146,6 +146,7 @@ def shaking_table(
     fit: Sequence[str] | Mapping[str, str | None],
     *,
     using: Sequence[str] = (),
+    instrument: Sequence[str] = (),
     seed: int | None = None,
     mapping: Columns | None = None,
     jobs: int | None = None,
@@ -164,6 +165,9 @@ def shaking_table(
         None.
     using
         Measured quantities to fit; all that the model has if left out.
+    instrument
+        What is not known of the sensors, standard deviations such as ``"gain=2 %"``,
+        ``"sliding_displacement.lag=10 ms"`` or ``"sliding_displacement.drift=1 mm"``; ``"exact"`` where all is.
     seed
         Of the random starts.
     mapping
