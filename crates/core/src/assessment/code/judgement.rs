@@ -316,6 +316,7 @@ pub fn verdict(judgement: &Judgement) -> String {
     let first = match (judged, fail) {
         (0, _) if judgement.rules.is_empty() => "no requirement of its own".to_owned(),
         (0, _) => "no requirement could be judged".to_owned(),
+        (1, 0) => "the one judged requirement holds".to_owned(),
         (_, 0) => format!("all {judged} judged {} hold", plural(judged)),
         _ => format!("{fail} of {judged} judged {} FAIL", plural(judged)),
     };

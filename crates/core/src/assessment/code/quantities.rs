@@ -280,7 +280,7 @@ impl<'a> Quantities<'a> {
     }
 
     fn plan(&self, of: fn(&Plan) -> f64) -> Found {
-        let why = "the plan of the building is not given: `eccentricity`";
+        let why = "the plan of the building is not given (eccentricity)";
         self.of.plan.map(of).ok_or_else(|| why.to_owned())
     }
 
