@@ -303,7 +303,8 @@ mod tests {
         assert_eq!((again.defect, again.largest), (run.defect.clone(), run.largest.clone()));
         assert_eq!((again.alone, again.sliding), (run.alone, run.sliding.clone()));
         assert_eq!(again.noticed, run.noticed);
-        for wrong in ["", "{}", &line.replace("demands", "demand"), &line.replacen("0000 ", "", 1)]
+        for wrong in
+            ["", "{}", &line.replace("gap_exceeded", "gap"), &line.replacen("0000 ", "", 1)]
         {
             assert!(read(wrong).is_none(), "{wrong}");
         }
