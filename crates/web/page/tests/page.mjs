@@ -14,6 +14,7 @@ import { minute } from "./minute.mjs";
 import { scenes } from "./scenes.mjs";
 import { browser, drop, headline, host, message, open, settled, temporary } from "./harness.mjs";
 import { loading } from "./loading.mjs";
+import { report } from "./report.mjs";
 import { runs } from "./runs.mjs";
 import { whole } from "./whole.mjs";
 
@@ -731,6 +732,7 @@ for (const [scheme, forcedColors] of [["light", "none"], ["dark", "none"], ["lig
 
 loading(test, on, site);
 whole(test, on, root);
+report(test, () => chromium, axe, root);
 runs(test, on);
 figures(test, on);
 
