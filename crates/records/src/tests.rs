@@ -411,3 +411,61 @@ proptest! {
         prop_assert_eq!(&ok(&text, &NOTHING).channels[0].values, &values);
     }
 }
+
+/// Cells without anything in them are no table.
+#[test]
+fn rows_of_empty_cells_are_refused() {
+    for text in [",,,\n", "a,b\n,\n,\n", ";;\n;;\n", "4 0.01\n,,\n,,\n", "a,b\n1,2\n,\n"] {
+        assert!(read("t", text.as_bytes(), &Options::default()).is_err(), "{text:?}");
+        assert!(columns("t", text.as_bytes()).is_err() || text.ends_with("1,2\n,\n"), "{text:?}");
+    }
+}
+
+/// Separators, digits, quotes and words in any order are a table or an error, never a panic.
+#[test]
+fn prop_any_cells_give_a_table_or_an_error() {
+    let words = [
+        ",",
+        ";",
+        "\t",
+        " ",
+        "\n",
+        "\n",
+        "0",
+        "1.5",
+        "-2",
+        "0,5",
+        "a",
+        "acc (g)",
+        "t",
+        "\"",
+        "#",
+        "10:00:01",
+        "2025-01-02",
+        "1.000",
+        "nan",
+        "\r\n",
+        "T",
+        "Sa [g]",
+        ",,",
+        "45000.1",
+    ];
+    let mut state = 1_u64;
+    for _ in 0..40_000 {
+        let mut text = String::new();
+        for _ in 0..24 {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            text.push_str(words[(state >> 33) as usize % words.len()]);
+        }
+        for options in [
+            Options::default(),
+            Options { dt_s: Some(0.01), units: Units::parse("g"), format: None },
+        ] {
+            let _ = read("t", text.as_bytes(), &options);
+        }
+        let _ = (columns("t", text.as_bytes()), target_spectrum("t", text.as_bytes()));
+        let _ = text_rows("t", text.as_bytes());
+    }
+}

@@ -49,6 +49,11 @@ const CLEAR_SLIDING: f64 = 25.0;
 const MOST_TURNS: usize = 20;
 /// Residuals that each parameter must have.
 const LEAST_RESIDUALS: usize = 10;
+/// Least variance of residuals over their standard deviation.
+const LEAST_VARIANCE: f64 = 0.1;
+/// Least standard deviation over the size of a quantity: its last digits, or what a lag about which the model is
+/// taken as linear leaves.
+const LEAST_NOISE: [f64; 2] = [1e-9, 1e-6];
 /// Fits after each of which residuals are weighed anew and lags move, at most.
 const MOST_SCALES: usize = 8;
 /// How near in samples a jump of the response is known: the table moves between its samples as it likes.
@@ -312,9 +317,11 @@ fn searched(
         let moved = data.move_lags(&left);
         let next: Vec<f64> = left
             .iter()
-            .zip(&data.measured.series)
-            // A fit without noise is weighed by the last digits of the size.
-            .map(|(left, series)| rms(&left.left).max(1e-9 * rms(&series.values)).max(1e-300))
+            .zip(data.measured.series.iter().zip(&data.instruments))
+            .map(|(left, (series, instrument))| {
+                let least = LEAST_NOISE[usize::from(instrument.lag_s > 0.0)];
+                rms(&left.left).max(least * rms(&series.values)).max(1e-300)
+            })
             .collect();
         let settled = next.iter().zip(&scales).all(|(a, b)| (a / b - 1.0).abs() < 0.01);
         minimum = Some(found);
@@ -642,7 +649,8 @@ fn intervals(problem: &Problem, data: &Data, scales: &[f64], minimum: Minimum) -
         // What is said of a transducer is a residual, and it takes one away.
         let unknowns = left.iter().map(|left| left.priors.len()).sum::<usize>();
         let freedom = minimum.count.saturating_sub(count + left.len() + unknowns).max(1) as f64;
-        variance = (minimum.sse / freedom).max(1e-24);
+        // Without noise the last digits of the size are its standard deviation: less is rounding.
+        variance = (minimum.sse / freedom).max(LEAST_VARIANCE);
         let t = student_quantile(0.95, freedom);
         let better: Cell<Option<Minimum>> = Cell::new(None);
         found.clear();

@@ -70,6 +70,9 @@ impl TextTable {
         if let Some(first) = pending {
             table.columns = style.columns_of_first(text, header, &first);
             table.columns = table.row(text, &first)?;
+            if table.columns == 0 {
+                return Err(text.error(&first, 0, "a row of numbers", "empty cells"));
+            }
             pending = rows.next();
             if let Some(second) = pending.filter(|line| !line.is_blank()) {
                 let columns = table.row(text, &second)?;
@@ -78,6 +81,9 @@ impl TextTable {
                     table.header_lines = first.number;
                     table.faults.values_mut().for_each(|fault| fault.row = 0);
                     (table.count, table.columns) = (Some(count), columns);
+                    if columns == 0 {
+                        return Err(text.error(&second, 0, "a row of numbers", "empty cells"));
+                    }
                 } else if columns != table.columns {
                     return Err(table.uneven_row(text, &second, columns));
                 }
@@ -107,6 +113,9 @@ impl TextTable {
                 short = Some((line, columns));
             }
             pending = rows.next();
+        }
+        if table.columns == 0 {
+            return Err(text.error_at_end("numbers", "the end of the file"));
         }
         table.check_count(text)?;
         Ok(table)

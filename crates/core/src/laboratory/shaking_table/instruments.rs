@@ -312,9 +312,13 @@ impl Instrument {
         weight: f64,
     ) -> Option<Remainder> {
         let nominal = self.nominal(lag_s);
-        let unknown: Vec<usize> = (0..UNKNOWNS).filter(|k| nominal[*k][1] > 0.0).collect();
+        // A quantity that stays 0 tells no gain and no lag: they stay nominal, which changes nothing.
+        let shows =
+            |k: usize| (0..measured.len()).any(|index| Self::regressors(seen, index)[k] != 0.0);
+        let unknown: Vec<usize> =
+            (0..UNKNOWNS).filter(|k| nominal[*k][1] > 0.0 && shows(*k)).collect();
         // What is known counts beside the unknowns.
-        let base = [if nominal[0][1] > 0.0 { 0.0 } else { 1.0 }, 0.0, 0.0, 0.0];
+        let base = [if unknown.contains(&0) { 0.0 } else { 1.0 }, 0.0, 0.0, 0.0];
         let count = unknown.len();
         let mut normal = vec![vec![0.0; count]; count];
         let mut right = vec![0.0; count];
@@ -354,7 +358,11 @@ impl Instrument {
             let [value, deviation] = nominal[*k];
             weight.sqrt() * (found[*k] - value) / deviation
         };
-        let priors = unknown.iter().map(prior).collect();
+        let priors = (0..UNKNOWNS).filter(|k| nominal[*k][1] > 0.0).map(|k| {
+            // Always as many, whatever shows.
+            if unknown.contains(&k) { prior(&k) } else { 0.0 }
+        });
+        let priors = priors.collect();
         Some(Remainder { left: left.collect(), priors, found })
     }
 }

@@ -428,6 +428,28 @@ fn prop_intervals_cover() {
     }
 }
 
+/// What transducers may do makes no friction of a block that is stuck, with noise and without.
+#[test]
+fn a_record_without_sliding_is_refused_whatever_the_transducers_may_do() {
+    for (seed, noise) in [(0, [0.0; 2]), (1, [0.05, 3e-4]), (2, [0.05, 3e-4])] {
+        let measured = made(BLOCK, 1.0, noise, seed);
+        let (engine, usual) = (Engine::unwatched(), Instruments::default());
+        let found = fitted_by(&engine, &measured, BLOCK, &STATIC_KINETIC, &usual, seed).unwrap();
+        let said = (
+            seed,
+            found.sliding_evidence,
+            &found.noise,
+            &found.instruments,
+            found.correlation_length,
+        );
+        assert!(
+            found.estimates.iter().all(|e| e.why().is_some()),
+            "{said:?} {:?}",
+            found.estimates
+        );
+    }
+}
+
 #[test]
 fn a_record_without_sliding_is_refused() {
     for seed in 0..12 {
