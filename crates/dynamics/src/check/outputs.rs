@@ -11,6 +11,12 @@ struct Arm {
     contents: Vec<f64>,
 }
 
+/// Masses of the points in kg, and floors and masses of contents.
+struct Masses {
+    points_kg: Vec<f64>,
+    contents_kg: Vec<(usize, f64)>,
+}
+
 /// The tracked outputs: linear functions of state, accelerations and forces.
 pub(super) struct Outputs {
     /// `None`: no moment is asked for.
@@ -20,8 +26,8 @@ pub(super) struct Outputs {
     /// Of those, point by point: what the oscillators add, and what of the motion is the block's.
     of_modes: Option<Vec<(Vec<f64>, f64)>>,
     contents: usize,
-    /// Masses of the points in kg, where all have one, and floors and masses of contents: of the shears of storeys.
-    masses: Option<(Vec<f64>, Vec<(usize, f64)>)>,
+    /// For the shears of storeys, where all points have a mass.
+    masses: Option<Masses>,
 }
 
 impl Outputs {
@@ -39,7 +45,7 @@ impl Outputs {
         });
         let of_contents = || model.contents().iter().map(|c| (c.floor, c.mass_kg)).collect();
         let masses = model.point_masses_kg().filter(|_| points > 1);
-        let masses = masses.map(|points_kg| (points_kg, of_contents()));
+        let masses = masses.map(|points_kg| Masses { points_kg, contents_kg: of_contents() });
         Self { arm, points, of_modes, contents, masses }
     }
 
@@ -113,7 +119,7 @@ impl Outputs {
             out(OVERTURNING, sum);
         }
         // From the top down: a storey moves all above it.
-        if let Some((points_kg, contents_kg)) = &self.masses {
+        if let Some(Masses { points_kg, contents_kg }) = &self.masses {
             let mut sum = [0.0; N];
             for i in (1..self.points).rev() {
                 let [_, _, total] = point(i);

@@ -290,7 +290,7 @@ impl System {
         let [tilt_rad, tilt_y_rad] = self.slope.map(libm::asin);
         let ends = match self.ring {
             Some([gap_m, k, c]) => Stop::elastic([Some(gap_m); 2], k, c).into(),
-            None => slider.ends.clone(),
+            None => slider.ends,
         };
         let damper_n_s_per_m = self.damper;
         let slider = Slider { damper_n_s_per_m, tilt_rad, tilt_y_rad, ends, ..slider };
