@@ -1,4 +1,5 @@
-//! `cargo xtask reference`: the reference cases as a table of the book, from the tests' own words.
+//! `cargo xtask reference`: the reference cases and the published figures as tables of the book, from the tests' own
+//! words.
 
 use crate::shell::{self, Outcome};
 use serde_json::Value;
@@ -25,7 +26,7 @@ pub fn reference(options: &[&str]) -> Outcome {
     if !matches!(options, [] | ["--write"]) {
         return Err(format!("reference: expected --write or nothing, found {}", options.join(" ")));
     }
-    let test = "test --quiet -p slipstick --test library -- --show-output cases:: devices:: bidirectional::";
+    let test = "test --quiet -p slipstick --test library -- --show-output cases:: devices:: bidirectional:: published::";
     let log = shell::output(&mut shell::cargo(test))?;
     let mut all = Vec::new();
     for file in ["cases.json", "devices.json", "bidirectional.json"] {
@@ -34,17 +35,36 @@ pub fn reference(options: &[&str]) -> Outcome {
             .map_err(|error| error.to_string())
             .and_then(|text| serde_json::from_str::<Value>(&text).map_err(|e| e.to_string()))
             .map_err(|error| format!("{}: {error}", path.display()))?;
-        let cases = read["cases"].as_array().into_iter().flatten();
-        // Of two directions those of friction by speed are not solved.
-        all.extend(cases.filter(|case| case["step"] != 2).cloned());
+        all.extend(read["cases"].as_array().into_iter().flatten().cloned());
     }
     let cases = serde_json::json!({ "cases": all });
-    let table = table(&cases, &said(&log))?;
-    if options.is_empty() {
-        print!("{table}");
-        return Ok(());
+    for (page, table) in
+        [("verification", table(&cases, &said(&log))?), ("published", published(&log)?)]
+    {
+        if options.is_empty() {
+            print!("{table}");
+        } else {
+            shell::write(&shell::root().join(format!("book/src/generated/{page}.md")), &table)?;
+        }
     }
-    shell::write(&shell::root().join("book/src/generated/verification.md"), &table)
+    Ok(())
+}
+
+/// The lines `published CASE | SOURCE | FIGURE | THEIRS | OURS | WHOSE ERROR` of the tests as a table.
+fn published(log: &str) -> Result<String, String> {
+    let mut rows: Vec<&str> = log.lines().filter_map(|l| l.strip_prefix("published ")).collect();
+    if rows.is_empty() {
+        return Err("no test has spoken of a published figure".to_owned());
+    }
+    // Tests end in any order; the rows of one keep theirs.
+    rows.sort_by_key(|row| row.split(" | ").next());
+    let head = "<!-- Written by `cargo xtask reference --write`. -->\n\n\
+                | case | source | figure | published | ours | whose error the difference is |\n\
+                |---|---|---|--:|--:|---|\n";
+    Ok(rows.iter().fold(head.to_owned(), |table, row| {
+        let row = row.replace("|ṡ|", "\\|ṡ\\|");
+        format!("{table}| {row} |\n")
+    }))
 }
 
 /// By case: `case ID: N figures, worst R of its tolerance T (WHAT)` in the output of a test.
@@ -105,6 +125,21 @@ mod tests {
         let table = table(&cases, &said(log)).expect("a table");
         let row = "| HARM | a=A sin | closed form | 7 | 1.2e-3 | 4.9e-11 | peak \\|z\\| |";
         assert_eq!(table.lines().last(), Some(row));
+    }
+
+    #[test]
+    fn published_rows_stand_by_case() {
+        let log = "published B | b | second | 1 | 1.00 | none\nother\npublished A | a | N ∫|ṡ| | 2 | 2.00 | none\n\
+                   published B | b | third | 3 | 3.00 | none\n";
+        let table = published(log).expect("a table");
+        let rows: Vec<&str> = table.lines().skip(4).collect();
+        let expected = [
+            "| A | a | N ∫\\|ṡ\\| | 2 | 2.00 | none |",
+            "| B | b | second | 1 | 1.00 | none |",
+            "| B | b | third | 3 | 3.00 | none |",
+        ];
+        assert_eq!(rows, expected);
+        assert!(published("nothing").is_err());
     }
 
     #[test]

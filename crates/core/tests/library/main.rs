@@ -30,6 +30,7 @@ mod plane_ring;
 mod plane_slope;
 mod pressure;
 mod properties;
+mod published;
 mod records;
 mod reference;
 mod sample_records;

@@ -303,9 +303,8 @@ mod tests {
         assert_eq!((again.defect, again.largest), (run.defect.clone(), run.largest.clone()));
         assert_eq!((again.alone, again.sliding), (run.alone, run.sliding.clone()));
         assert_eq!(again.noticed, run.noticed);
-        for wrong in
-            ["", "{}", &line.replace("gap_exceeded", "gap"), &line.replacen("0000 ", "", 1)]
-        {
+        let of_no_kind = line.replacen("gap", "unheard of", 1);
+        for wrong in ["", "{}", &of_no_kind, &line.replacen("0000 ", "", 1)] {
             assert!(read(wrong).is_none(), "{wrong}");
         }
         run.noticed[1].push(Notice::new(NoticeKind::GapExceeded, "two\nlines"));
