@@ -4,13 +4,15 @@
 //! lines of comment, 17 the values, 47 the digits); 50 reals in 5E15.7 (number 2 samples a second,
 //! 30 and 32 the extremes, 33 and 35 the corners of the filter);
 //! comments that begin with `|`; then values, eight of ten columns on a line or, where integer 47
-//! is 8, five of fourteen.
+//! is 8, five of fourteen. Without samples a second (a film digitised where it bends) these are pairs of
+//! time and value.
 //!
 //! Layout: USGS Digital Data Series 7 (1992) and the National Strong-Motion Program's description
 //! of it; integer 47: D. M. Boore, USGS Open-File Report 00-358.
 
 use super::component::azimuth;
 use super::fixed::{Cursor, Fields};
+use super::sampling::of_times;
 use super::text::{Line, Text};
 use super::volume::agree;
 use super::{
@@ -71,19 +73,8 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
         let expected = "2 to 100 000 000 values, as integer 17 of the header says";
         return Err(text.error(&integers_line, 0, expected, &shown(integers[16])));
     };
-    let Some(rate) = real(2).filter(|rate| *rate > 0.0 && *rate < 1e6) else {
-        let expected = "samples a second as real 2 of the header: uneven sampling is not read";
-        return Err(text.error(&reals_line, 0, expected, &shown(reals[1])));
-    };
-    let mut dt_s = 1.0 / rate;
-    if let Some(given_s) = options.dt_s {
-        // The rate has seven digits.
-        if (given_s - dt_s).abs() > 1e-6 * dt_s {
-            let expected = format!("the time step given, {given_s} s (leave it out)");
-            return Err(text.error(&reals_line, 15, expected, &format!("{dt_s} s")));
-        }
-        dt_s = given_s;
-    }
+    let rate = real(2).filter(|rate| *rate > 0.0 && *rate < 1e6);
+    let dt_s = rate.map(|rate| step(text, &reals_line, 1.0 / rate, options)).transpose()?;
     let comments = integer(16).unwrap_or(0.0).clamp(0.0, 1e6) as usize;
     for _ in 0..comments {
         let line = cursor.next("a comment line that begins with \"|\"")?;
@@ -95,7 +86,29 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
         }
     }
     let fields = if integer(47) == Some(8.0) { FINE } else { USUAL };
-    let values = cursor.values(fields, count as usize, &integers_line)?;
+    let first = cursor.peek();
+    let (values, sampling, mut warnings) = match dt_s {
+        Some(dt_s) => {
+            let values = cursor.values(fields, count as usize, &integers_line)?;
+            (values, Sampling::Dt(dt_s), vec![])
+        }
+        None => {
+            let all = cursor.values(fields, pairs(&cursor, fields, count), &integers_line)?;
+            let (times_s, values): (Vec<f64>, Vec<f64>) =
+                all.chunks_exact(2).map(|pair| (pair[0], pair[1])).unzip();
+            let rises = times_s.len() >= 2
+                && times_s.windows(2).all(|t| t[1] >= t[0])
+                && times_s.last() > times_s.first();
+            if !rises {
+                let line = first.as_ref().unwrap_or(&reals_line);
+                let expected =
+                    "pairs of time and value, as real 2 of the header states no samples a second";
+                return Err(text.error(line, 0, expected, "times that do not rise"));
+            }
+            let (sampling, warnings) = of_times(times_s, options.dt_s);
+            (values, sampling, warnings)
+        }
+    };
     cursor.skip_blank();
     if let Some(line) = cursor.peek() {
         let expected = format!("no more than {count} values, as integer 17 of the header says");
@@ -110,13 +123,14 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
         component,
         units,
         values: to_si(values, &units),
-        sampling: Sampling::Dt(dt_s),
+        sampling,
         filter: FilterCorners {
             high_pass_hz: real(33).filter(|hz| *hz > 0.0),
             low_pass_hz: real(35).filter(|hz| *hz > 0.0),
         },
         warnings: vec![],
     };
+    channel.warnings.append(&mut warnings);
     let extremes = [real(30), real(32)].into_iter().flatten();
     if let Some(peak) = extremes.reduce(|a, b| if a.abs() > b.abs() { a } else { b }) {
         let ulp = 1e-6 * peak.abs();
@@ -135,6 +149,28 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
     }
     let layout = "SMC".to_owned();
     Ok(Record { format: Format::Smc, layout, channels: vec![channel], warnings: vec![] })
+}
+
+/// The step of a file that states it, which a given one may only write with more digits: the rate has seven.
+fn step(text: &Text, line: &Line, own_s: f64, options: &Options) -> Result<f64, RecordError> {
+    match options.dt_s {
+        Some(given_s) if (given_s - own_s).abs() > 1e-6 * own_s => {
+            let expected = format!("the time step given, {given_s} s (leave it out)");
+            Err(text.error(line, 15, expected, &format!("{own_s} s")))
+        }
+        given_s => Ok(given_s.unwrap_or(own_s)),
+    }
+}
+
+/// Numbers of the pairs: the header counts the pairs or the numbers, which the lines that are left tell.
+fn pairs(cursor: &Cursor, fields: Fields, count: f64) -> usize {
+    let count = count as usize;
+    let mut rest = cursor.clone();
+    let mut lines = 0;
+    while rest.peek().is_some_and(|line| !line.is_blank()) && rest.next("").is_ok() {
+        lines += 1;
+    }
+    if lines == fields.lines(count) && count.is_multiple_of(2) { count } else { 2 * count }
 }
 
 fn shown(number: Option<f64>) -> String {

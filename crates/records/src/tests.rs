@@ -469,3 +469,41 @@ fn prop_any_cells_give_a_table_or_an_error() {
         let _ = text_rows("t", text.as_bytes());
     }
 }
+
+/// An SMC file of a film that was digitised where it bends: no samples a second, pairs of time and value.
+#[test]
+fn smc_of_uneven_times() {
+    let file = |counted: usize, numbers: &[f64]| {
+        let unknown = "1.7000000E+38";
+        let mut text = "1 UNCORRECTED ACCELEROGRAM\n".to_owned() + &"*\n".repeat(10);
+        for i in 0..48 {
+            let integer = match i {
+                15 => 0,
+                16 => counted as i64,
+                _ => -32768,
+            };
+            text += &format!("{integer:10}");
+            text += if i % 8 == 7 { "\n" } else { "" };
+        }
+        for i in 0..50 {
+            text += &format!("{unknown:>15}");
+            text += if i % 5 == 4 { "\n" } else { "" };
+        }
+        for line in numbers.chunks(8) {
+            line.iter().for_each(|number| text += &format!("{number:10.4}"));
+            text += "\n";
+        }
+        text
+    };
+    let pairs = [0.0, 1.5, 0.02, -12.5, 0.05, 3.25, 0.0625, 0.5, 0.1, 0.0];
+    for counted in [5, 10] {
+        let record = ok(&file(counted, &pairs), &NOTHING);
+        let channel = &record.channels[0];
+        assert_eq!(channel.sampling, Sampling::Times(vec![0.0, 0.02, 0.05, 0.0625, 0.1]));
+        assert_eq!(values(channel), [1.5, -12.5, 3.25, 0.5, 0.0]);
+    }
+    // Values of even steps whose rate is lost are no pairs.
+    let found = message(&file(5, &[1.5, 0.2, -3.0, 0.4, 2.0, 0.1, 0.0, 0.0, 1.0, 1.0]), &NOTHING);
+    assert!(found.contains("pairs of time and value") && found.contains("do not rise"), "{found}");
+    assert!(read("f", file(5, &pairs[..8]).as_bytes(), &NOTHING).is_err());
+}
