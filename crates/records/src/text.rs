@@ -44,13 +44,20 @@ pub(super) fn decoded(bytes: &[u8]) -> std::borrow::Cow<'_, [u8]> {
     characters.collect::<String>().into_bytes().into()
 }
 
+/// Without the zeros after the last line, with which blocks of a tape were filled.
+fn unpadded(bytes: &[u8]) -> &[u8] {
+    let end = bytes.iter().rposition(|b| *b != 0 && !is_blank(b)).map_or(0, |last| last + 1);
+    let zero = bytes[end..].iter().position(|b| *b == 0);
+    zero.filter(|_| end > 0).map_or(bytes, |zero| &bytes[..end + zero])
+}
+
 impl<'a> Text<'a> {
     /// Takes the bytes as text: UTF-8 with or without its mark, or any other superset of ASCII.
     ///
     /// # Errors
     /// Where they are empty, UTF-16 or binary.
     pub fn new(source_name: &'a str, bytes: &'a [u8]) -> Result<Self, RecordError> {
-        let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+        let bytes = unpadded(bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes));
         let text = Self { source_name, bytes };
         if let Some([expected, found]) = packed(bytes) {
             return Err(text.error_at_start(expected, found));
@@ -329,6 +336,13 @@ mod tests {
         assert_eq!(number_with_comma(b"-0,125"), Some(-0.125));
         assert_eq!(number_with_comma(b"1.234,5"), None);
         assert_eq!(number_with_comma(b"1,2,3"), None);
+    }
+
+    #[test]
+    fn zeros_after_the_last_line_are_padding() {
+        let padded = Text::new("f", b"1\r\n2\r\n\0\0\0\r\n").unwrap();
+        assert_eq!(padded.lines().map(|line| line.trimmed()).collect::<Vec<_>>(), ["1", "2"]);
+        assert!(Text::new("f", b"\0\0\n").is_err() && Text::new("f", b"1\n\0\x002\n").is_err());
     }
 
     #[test]

@@ -28,7 +28,14 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
     let mut cursor = Cursor::new(text);
     let mut channels = Vec::new();
     let mut corrected = false;
-    while let Some(head) = Head::read(&mut cursor)? {
+    let mut warnings = Vec::new();
+    loop {
+        if let Some(line) = (!channels.is_empty()).then(|| stray(&mut cursor)).flatten() {
+            let message = format!("the last line, {line}, is words and no numbers: skipped");
+            warnings.push(Notice::new(NoticeKind::ColumnSkipped, message));
+            break;
+        }
+        let Some(head) = Head::read(&mut cursor)? else { break };
         corrected = head.corrected;
         let head = Head { text: head.text.iter().map(cut).collect(), ..head };
         let names = names(&head, channels.len() + 1);
@@ -46,7 +53,19 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
     }
     let layout = if corrected { "USC/Caltech volume II" } else { "USC/Caltech volume I" };
     let layout = layout.to_owned();
-    Ok(Record { format: Format::Usc, layout, channels, warnings: vec![] })
+    Ok(Record { format: Format::Usc, layout, channels, warnings })
+}
+
+/// The number of the last line where it is no head but words, such as what a terminal wrote after the numbers.
+fn stray(cursor: &mut Cursor) -> Option<usize> {
+    cursor.skip_blank();
+    let line = cursor.peek()?;
+    let mut rest = cursor.clone();
+    rest.next("").ok()?;
+    rest.skip_blank();
+    let words =
+        !line.bytes.iter().any(u8::is_ascii_digit) && line.find("ACCELEROGRAM", 0).is_none();
+    (words && rest.peek().is_none()).then_some(line.number)
 }
 
 /// A line without the length of its text.
@@ -65,5 +84,19 @@ fn names(head: &Head, number: usize) -> Names {
         azimuth_deg: component.as_deref().and_then(azimuth),
         name: component.clone().unwrap_or_else(|| number.to_string()),
         component,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_last_line_of_words_is_no_head() {
+        let of = |text: &str| stray(&mut Cursor::new(&Text::new("f", text.as_bytes()).unwrap()));
+        assert_eq!(of("\n  VLEE $\n\n"), Some(2));
+        for other in ["UNCORRECTED ACCELEROGRAM\n", "VLEE $\nmore\n", "  11.430  -.007\n"] {
+            assert_eq!(of(other), None, "{other}");
+        }
     }
 }
