@@ -353,8 +353,8 @@ fn floor_spectra_and_profiles_of_a_suite() {
     assert_eq!(json["floor_spectrum"]["period_s"].as_array().unwrap().len(), periods);
     let governs = json["floor_spectrum"]["spectra"].as_array().unwrap().iter();
     assert_eq!(governs.filter(|one| one["governs"] == true).count(), 4);
-    // Three bounds of three demands; there are no heights.
-    assert_eq!(json["profiles"].as_array().unwrap().len(), 9);
+    // Three bounds of four demands; there are no heights.
+    assert_eq!(json["profiles"].as_array().unwrap().len(), 12);
     assert_eq!(column(&folder.read("out/profiles.csv"), "level")[..3], ["0.0", "1.0", "2.0"]);
     let page = folder.read("out/report.html");
     for id in ["floor-spectra", "profiles"] {
