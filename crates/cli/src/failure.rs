@@ -40,6 +40,7 @@ impl Failure {
         {
             let mend = "a record is given beside a model, with --motion or --records; what was measured \
                         stands before the model";
+            let name = visible(name);
             return Self::Message(format!("{name}: expected a model, found {what} ({mend})"));
         }
         Self::Input { error: Box::new(error), text: text.to_owned() }
@@ -49,7 +50,7 @@ impl Failure {
     pub fn job(error: JobError, name: &str, text: &str) -> Self {
         match error {
             JobError::Input(error) => Self::input(error, text),
-            JobError::Solve(error) => Self::Message(format!("{name}: {error}")),
+            JobError::Solve(error) => Self::Message(format!("{}: {error}", visible(name))),
             JobError::File(error) => error.into(),
         }
     }
