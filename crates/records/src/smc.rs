@@ -5,7 +5,7 @@
 //! 30 and 32 the extremes, 33 and 35 the corners of the filter);
 //! comments that begin with `|`; then values, eight of ten columns on a line or, where integer 47
 //! is 8, five of fourteen. Without samples a second (a film digitised where it bends) these are pairs of
-//! time and value.
+//! time and value, of which integer 17 counts the numbers.
 //!
 //! Layout: USGS Digital Data Series 7 (1992) and the National Strong-Motion Program's description
 //! of it; integer 47: D. M. Boore, USGS Open-File Report 00-358.
@@ -93,10 +93,11 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
             (values, Sampling::Dt(dt_s), vec![])
         }
         None => {
-            let all = cursor.values(fields, pairs(&cursor, fields, count), &integers_line)?;
+            let all = cursor.values(fields, count as usize, &integers_line)?;
             let (times_s, values): (Vec<f64>, Vec<f64>) =
                 all.chunks_exact(2).map(|pair| (pair[0], pair[1])).unzip();
-            let rises = times_s.len() >= 2
+            let rises = all.len().is_multiple_of(2)
+                && times_s.len() >= 2
                 && times_s.windows(2).all(|t| t[1] >= t[0])
                 && times_s.last() > times_s.first();
             if !rises {
@@ -111,8 +112,18 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
     };
     cursor.skip_blank();
     if let Some(line) = cursor.peek() {
-        let expected = format!("no more than {count} values, as integer 17 of the header says");
-        return Err(text.error(&line, 0, expected, &line.trimmed()));
+        // Below such pairs stands a line of the end of the film that the header does not count.
+        cursor.next("")?;
+        cursor.skip_blank();
+        if dt_s.is_some() || cursor.peek().is_some() {
+            let expected = format!("no more than {count} values, as integer 17 of the header says");
+            return Err(text.error(&line, 0, expected, &line.trimmed()));
+        }
+        let message = format!(
+            "line {}, after the {count} values that integer 17 of the header counts: skipped",
+            line.number
+        );
+        warnings.push(Notice::new(NoticeKind::ColumnSkipped, message));
     }
     let component = after(&lines, "COMPONENT");
     let mut channel = Channel {
@@ -160,17 +171,6 @@ fn step(text: &Text, line: &Line, own_s: f64, options: &Options) -> Result<f64, 
         }
         given_s => Ok(given_s.unwrap_or(own_s)),
     }
-}
-
-/// Numbers of the pairs: the header counts the pairs or the numbers, which the lines that are left tell.
-fn pairs(cursor: &Cursor, fields: Fields, count: f64) -> usize {
-    let count = count as usize;
-    let mut rest = cursor.clone();
-    let mut lines = 0;
-    while rest.peek().is_some_and(|line| !line.is_blank()) && rest.next("").is_ok() {
-        lines += 1;
-    }
-    if lines == fields.lines(count) && count.is_multiple_of(2) { count } else { 2 * count }
 }
 
 fn shown(number: Option<f64>) -> String {

@@ -1,7 +1,7 @@
 use proptest::prelude::*;
 
 use super::*;
-use slipstick_dynamics::notice::NoticeKind;
+use slipstick_dynamics::notice::{Notice, NoticeKind};
 
 const NOTHING: Options = Options { format: None, units: None, dt_s: None };
 
@@ -496,14 +496,19 @@ fn smc_of_uneven_times() {
         text
     };
     let pairs = [0.0, 1.5, 0.02, -12.5, 0.05, 3.25, 0.0625, 0.5, 0.1, 0.0];
-    for counted in [5, 10] {
-        let record = ok(&file(counted, &pairs), &NOTHING);
-        let channel = &record.channels[0];
-        assert_eq!(channel.sampling, Sampling::Times(vec![0.0, 0.02, 0.05, 0.0625, 0.1]));
-        assert_eq!(values(channel), [1.5, -12.5, 3.25, 0.5, 0.0]);
-    }
+    let record = ok(&file(10, &pairs), &NOTHING);
+    let channel = &record.channels[0];
+    assert_eq!(channel.sampling, Sampling::Times(vec![0.0, 0.02, 0.05, 0.0625, 0.1]));
+    assert_eq!(values(channel), [1.5, -12.5, 3.25, 0.5, 0.0]);
+    // A line that is not counted stands below.
+    let more = file(10, &pairs) + "    1.5000    2.0000    1.6000    3.0000\n";
+    let channel = &ok(&more, &NOTHING).channels[0];
+    assert_eq!(channel.values.len(), 5);
+    let skipped =
+        |w: &Notice| w.kind == NoticeKind::ColumnSkipped && w.message.contains("line 30,");
+    assert!(channel.warnings.iter().any(skipped), "{:?}", channel.warnings);
     // Values of even steps whose rate is lost are no pairs.
-    let found = message(&file(5, &[1.5, 0.2, -3.0, 0.4, 2.0, 0.1, 0.0, 0.0, 1.0, 1.0]), &NOTHING);
+    let found = message(&file(10, &[1.5, 0.2, -3.0, 0.4, 2.0, 0.1, 0.0, 0.0, 1.0, 1.0]), &NOTHING);
     assert!(found.contains("pairs of time and value") && found.contains("do not rise"), "{found}");
-    assert!(read("f", file(5, &pairs[..8]).as_bytes(), &NOTHING).is_err());
+    assert!(read("f", file(10, &pairs[..8]).as_bytes(), &NOTHING).is_err());
 }
