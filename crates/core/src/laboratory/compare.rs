@@ -508,7 +508,7 @@ impl<'a> Knots<'a> {
 }
 
 /// The value at a time between increasing ones, by the straight line.
-fn linear(times_s: &[f64], values: &[f64], time_s: f64) -> f64 {
+pub(super) fn linear(times_s: &[f64], values: &[f64], time_s: f64) -> f64 {
     let upper = times_s.partition_point(|t| *t <= time_s);
     if upper == 0 || upper == times_s.len() {
         return if upper == 0 { values[0] } else { values[values.len() - 1] };

@@ -5,6 +5,7 @@
 //! quarter of a cycle of what the mapping says. A lag of the force looks like a damper, `K x(t − l) ≈ K x − K l ẋ`: of
 //! such a test none can be determined.
 
+use super::compare::linear;
 use super::cyclic::{CyclicTest, KineticLaw, cyclic};
 use super::identify::cyclic_histories;
 use super::measured::{Measured, MeasuredError, MeasuredSeries};
@@ -66,7 +67,7 @@ impl Aligned {
         let times_s: Vec<f64> = rows.iter().map(|i| displacement.times_s[*i]).collect();
         let values: Vec<f64> = rows.iter().map(|i| displacement.values[*i]).collect();
         let forces = |shift_s: f64| -> Vec<f64> {
-            times_s.iter().map(|t| at(&force.times_s, &force.values, t + shift_s)).collect()
+            times_s.iter().map(|t| linear(&force.times_s, &force.values, t + shift_s)).collect()
         };
         let left = |shift_s: f64| {
             let forces = forces(shift_s);
@@ -101,8 +102,8 @@ impl Aligned {
     ) -> Measured {
         let Self { times_s, displacement: x, force: f, shift_s } = self;
         let message = format!(
-            "displacement and force have clocks of their own: that of the force was taken as {:.2} ms {}, where the loop \\
-             is thinnest, and the force was interpolated at the times of the displacement; a damper cannot be told from such \\
+            "displacement and force have clocks of their own: that of the force was taken as {:.2} ms {}, where the loop \
+             is thinnest, and the force was interpolated at the times of the displacement; a damper cannot be told from such \
              a lag",
             1e3 * shift_s.abs(),
             if shift_s > 0.0 { "late" } else { "early" }
@@ -129,15 +130,6 @@ fn test<'a>(times_s: &'a [f64], displacement_m: &'a [f64], force_n: &'a [f64]) -
         law: KineticLaw::Coulomb,
         zero_known: false,
     }
-}
-
-/// A value between samples, by the straight line.
-fn at(times_s: &[f64], values: &[f64], time_s: f64) -> f64 {
-    let upper = times_s.partition_point(|t| *t <= time_s).clamp(1, times_s.len() - 1);
-    let [from_s, to_s] = [times_s[upper - 1], times_s[upper]];
-    let part =
-        if to_s > from_s { ((time_s - from_s) / (to_s - from_s)).clamp(0.0, 1.0) } else { 0.0 };
-    values[upper - 1] + part * (values[upper] - values[upper - 1])
 }
 
 #[cfg(test)]
@@ -174,6 +166,7 @@ mod tests {
         let notice =
             measured.warnings.iter().find(|w| w.kind == NoticeKind::ClocksAligned).unwrap();
         assert!(notice.message.contains("37.") || notice.message.contains("36.9"), "{notice:?}");
+        assert!(!notice.message.contains(['\\', '\n']), "{notice:?}");
         let [x, f] = cyclic_histories(&measured).unwrap();
         let fit = cyclic(&test(&x.times_s, &x.values, &f.values)).unwrap();
         let found = estimates(&[&fit], 300.0, None);
