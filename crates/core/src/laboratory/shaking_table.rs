@@ -56,6 +56,9 @@ const LEAST_VARIANCE: f64 = 0.1;
 const LEAST_NOISE: [f64; 2] = [1e-9, 1e-6];
 /// Fits after each of which residuals are weighed anew and lags move, at most.
 const MOST_SCALES: usize = 8;
+/// Least step of a derivative, over the range of the parameter: where a sum of squares has a cliff at
+/// either side of its minimum, the interval of the profile is next to nothing.
+const LEAST_STEP: f64 = 1e-4;
 /// How near in samples a jump of the response is known: the table moves between its samples as it likes.
 const JUMP_REACH: f64 = 0.1;
 /// Standard deviation of the lag of a quantity that jumps, in samples.
@@ -223,7 +226,8 @@ fn fit(test: &TableTest, engine: &Engine<'_>) -> Result<TableFit, TableError> {
         estimate(parameter, values[index], found.intervals[index], kinetic, slides)
     });
     let estimates: Vec<Estimate> = estimates.collect();
-    let left = data.of_model(&model, &scales).ok_or_else(no_response)?;
+    let sights = data.sights(&model, data.motion).ok_or_else(no_response)?;
+    let left = data.remainders(&sights, None, &scales).ok_or_else(no_response)?;
     let paths: Vec<&str> = test.parameters.iter().map(|p| p.path.as_str()).collect();
     let covariance = Covariance::new(&paths, &found, &problem, &data, &scales);
     let instruments = data.found_of_instruments(&left, covariance.as_ref());
@@ -239,7 +243,7 @@ fn fit(test: &TableTest, engine: &Engine<'_>) -> Result<TableFit, TableError> {
         .filter(|((instrument, _), _)| instrument.zero > 0.0)
         .map(|((_, series), left)| (series.channel, left.found[2]))
         .collect();
-    let residuals = data.residuals_of(&model, &left).ok_or_else(no_response)?;
+    let residuals = data.residuals_of(sights, &left);
     let mut warnings = remarks::of_sensors(&left, &data, found.length);
     warnings.extend(remarks::of_instruments(&instruments));
     warnings.extend(remarks::of_residuals(&residuals, &data));
@@ -589,8 +593,7 @@ impl Data<'_> {
     }
 
     /// What is left of each quantity, with its times.
-    fn residuals_of(&self, model: &Model, left: &[Remainder]) -> Option<Vec<Residuals>> {
-        let sights = self.sights(model, self.motion)?;
+    fn residuals_of(&self, sights: Vec<Sight>, left: &[Remainder]) -> Vec<Residuals> {
         let of =
             |((sight, left), series): ((Sight, &Remainder), &super::measured::MeasuredSeries)| {
                 Residuals {
@@ -600,7 +603,7 @@ impl Data<'_> {
                     values: left.left.clone(),
                 }
             };
-        Some(sights.into_iter().zip(left).zip(&self.measured.series).map(of).collect())
+        sights.into_iter().zip(left).zip(&self.measured.series).map(of).collect()
     }
 }
 
@@ -633,6 +636,35 @@ struct Fitted {
     intervals: Vec<Option<Interval>>,
     length: f64,
     variance: f64,
+}
+
+impl Fitted {
+    /// Derivatives of a list of values at the best parameters, a column a parameter, over half of each interval:
+    /// closer by, single events would count for too much. `None` where the list has no value.
+    fn derivatives(
+        &self,
+        problem: &Problem,
+        of: impl Fn(&[f64]) -> Option<Vec<f64>>,
+    ) -> Option<Vec<Vec<f64>>> {
+        let values = problem.parameters(&self.minimum.unit);
+        let column = |(index, value): (usize, &f64)| {
+            let [least, most] = problem.bounds[index];
+            let width = self.intervals[index].map_or(0.0, |i| i.ends[1] - i.ends[0]);
+            let step = (0.25 * width).max(LEAST_STEP * (most - least));
+            let [from, to] = [value - step, value + step].map(|v| v.clamp(least, most));
+            if !(to > from) {
+                return None;
+            }
+            let at = |value: f64| {
+                let mut moved = values.clone();
+                moved[index] = value;
+                of(&moved)
+            };
+            let (low, high) = (at(from)?, at(to)?);
+            Some(low.iter().zip(&high).map(|(low, high)| (high - low) / (to - from)).collect())
+        };
+        values.iter().enumerate().map(column).collect()
+    }
 }
 
 /// Intervals of all parameters, from the best minimum that turns up on the way.

@@ -44,23 +44,7 @@ impl Covariance {
             };
             sights.iter().enumerate().flat_map(of).collect()
         };
-        let mut columns: Vec<Vec<f64>> = Vec::new();
-        for (index, value) in values.iter().enumerate() {
-            let [least, most] = problem.bounds[index];
-            let width = found.intervals[index].map_or(0.0, |i| i.ends[1] - i.ends[0]);
-            let step = (0.25 * width).max(1e-4 * (most - least));
-            let [from, to] = [value - step, value + step].map(|v| v.clamp(least, most));
-            if !(to > from) {
-                return None;
-            }
-            let at = |value: f64| {
-                let mut moved = values.clone();
-                moved[index] = value;
-                Some(predicted(&sights(&moved)?))
-            };
-            let (a, b) = (at(from)?, at(to)?);
-            columns.push(a.iter().zip(&b).map(|(a, b)| (b - a) / (to - from)).collect());
-        }
+        let mut columns = found.derivatives(problem, |values| Some(predicted(&sights(values)?)))?;
         let mut names: Vec<String> = paths.iter().map(|path| (*path).to_owned()).collect();
         let parameters = names.len();
         let mut priors = vec![0.0; parameters];

@@ -38,9 +38,6 @@ const DRAWS: usize = 24;
 /// What moves no estimate by more than this part of the standard deviation of its profile does not count:
 /// even three times as much would widen the interval by a twentieth.
 const NOTHING: f64 = 0.1;
-/// Least step of a derivative, over the range of the parameter: where a sum of squares has a cliff at
-/// either side of its minimum, the interval of the profile is next to nothing.
-const LEAST_STEP: f64 = 1e-4;
 /// Samples of the quietest stretch that is looked at.
 const QUIET: usize = 50;
 
@@ -158,11 +155,11 @@ fn fitted_anew(
 ) -> Option<Vec<f64>> {
     let values = problem.parameters(&found.minimum.unit);
     // What the best values and the transducers as they were found show, without noise.
-    let best = data.of_model(&(data.build)(&values)?, scales)?;
-    let measured = data.sights(&(data.build)(&values)?, data.motion)?;
+    let sights = data.sights(&(data.build)(&values)?, data.motion)?;
+    let best = data.remainders(&sights, None, scales)?;
     let shown: Vec<Vec<f64>> = best
         .iter()
-        .zip(&measured)
+        .zip(&sights)
         .map(|(best, sight)| best.left.iter().zip(&sight.measured).map(|(r, m)| m + r).collect())
         .collect();
     let residuals = |p: &[f64]| {
@@ -185,7 +182,6 @@ struct Derivatives<'a> {
 }
 
 impl<'a> Derivatives<'a> {
-    /// Over half of each interval: closer by, single events would count for too much.
     fn new(
         found: &Fitted,
         problem: &Problem,
@@ -193,24 +189,7 @@ impl<'a> Derivatives<'a> {
         scales: &'a [f64],
     ) -> Option<Self> {
         let values = problem.parameters(&found.minimum.unit);
-        let mut columns = Vec::with_capacity(values.len());
-        for (index, value) in values.iter().enumerate() {
-            let [least, most] = problem.bounds[index];
-            let width = found.intervals[index].map_or(0.0, |i| i.ends[1] - i.ends[0]);
-            let step = (0.25 * width).max(LEAST_STEP * (most - least));
-            let [from, to] = [value - step, value + step].map(|v| v.clamp(least, most));
-            if !(to > from) {
-                return None;
-            }
-            let at = |value: f64| {
-                let mut moved = values.clone();
-                moved[index] = value;
-                data.residuals(&moved, scales)
-            };
-            let (from_r, to_r) = (at(from)?, at(to)?);
-            let slope = from_r.iter().zip(&to_r).map(|(a, b)| (b - a) / (to - from));
-            columns.push(slope.collect::<Vec<f64>>());
-        }
+        let columns = found.derivatives(problem, |values| data.residuals(values, scales))?;
         let model = (data.build)(&values)?;
         let plain = data.residuals(&values, scales)?;
         Some(Self { data, scales, model, plain, columns })
