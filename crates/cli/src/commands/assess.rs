@@ -27,23 +27,45 @@ pub fn assess<const KIND: usize>(args: &AssessArgs<KIND>) -> Result<ExitCode, Fa
     let opened = Opened::open(&args.model, &args.suite)?;
     let result = &args.suite.result;
     let folder = opened.folder(result)?;
-    let kept = result.out.as_deref().map(|out| KeptFile::open(out, &command_line())).transpose()?;
-    if let Some((kept, out)) = kept.as_ref().zip(result.out.clone()) {
-        tell_what_is_kept(kept, out);
+    keeping_runs(result.out.as_deref(), |kept| {
+        let answer = opened
+            .compute(&args.suite, |engine| kept.with(engine, |on| asked.run(&opened.on(), on)))?;
+        emit(result, folder, answer, &opened.inputs)
+    })
+}
+
+/// The runs that are kept in a folder of results, where there is one.
+pub(super) struct KeptRuns(Option<KeptFile>);
+
+impl KeptRuns {
+    /// Computes with the runs that are kept.
+    pub(super) fn with<T>(&self, engine: &Engine<'_>, run: impl FnOnce(&Engine<'_>) -> T) -> T {
+        match &self.0 {
+            Some(kept) => run(&engine.keeping(kept)),
+            None => run(engine),
+        }
     }
-    let answer = opened.compute(&args.suite, |engine| match &kept {
-        Some(kept) => asked.run(&opened.on(), &engine.keeping(kept)),
-        None => asked.run(&opened.on(), engine),
-    })?;
-    let status = emit(result, folder, answer, &opened.inputs)?;
-    if let Some(kept) = kept {
+}
+
+/// Computes and writes with the runs that an interrupted command has kept; what is written needs them no more.
+pub(super) fn keeping_runs(
+    out: Option<&Path>,
+    write: impl FnOnce(&KeptRuns) -> Result<ExitCode, Failure>,
+) -> Result<ExitCode, Failure> {
+    let kept = out.map(|out| KeptFile::open(out, &command_line())).transpose()?;
+    if let Some((kept, out)) = kept.as_ref().zip(out) {
+        tell_what_is_kept(kept, out.to_owned());
+    }
+    let kept = KeptRuns(kept);
+    let status = write(&kept)?;
+    if let Some(kept) = kept.0 {
         kept.done();
     }
     Ok(status)
 }
 
 /// Says how to go on, should Ctrl-C end what follows.
-pub(super) fn tell_what_is_kept(kept: &KeptFile, out: PathBuf) {
+fn tell_what_is_kept(kept: &KeptFile, out: PathBuf) {
     let runs = kept.count();
     on_interrupt(move || {
         let (runs, out) = (count(runs.load(Ordering::Relaxed)), out.display());

@@ -5,14 +5,14 @@ use std::process::ExitCode;
 
 use slipstick::input;
 use slipstick::requests::{Kind, On};
-use slipstick_files::{InputFiles, KeptFile, TARGET, read_target, stems_or_paths};
+use slipstick_files::{InputFiles, TARGET, read_target, stems_or_paths};
 
-use super::assess::tell_what_is_kept;
+use super::assess::keeping_runs;
 use crate::args::RunArgs;
 use crate::failure::Failure;
 use crate::model_file::read_model;
 use crate::opened::{Opened, open_records};
-use crate::results::{command_line, emit, folder};
+use crate::results::{emit, folder};
 
 /// Runs, prints and writes; status 1 where a certificate does not hold.
 pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
@@ -67,23 +67,13 @@ pub fn histories(args: &RunArgs) -> Result<ExitCode, Failure> {
         opened.iter().zip(&names).map(|(opened, name)| On { name, ..opened.on() }).collect();
     let first = opened.first().ok_or_else(|| Failure::Message("expected a model".to_owned()))?;
     let target = target.map(|(path, spectrum, _)| (path, spectrum));
-    let out = suite.result.out.as_deref();
-    let kept = out.map(|out| KeptFile::open(out, &command_line())).transpose()?;
-    if let Some((kept, out)) = kept.as_ref().zip(suite.result.out.clone()) {
-        tell_what_is_kept(kept, out);
-    }
-    let answer = first.compute(&suite, |engine| {
-        let target = target.as_ref().map(|(path, spectrum)| (path.as_str(), spectrum.clone()));
-        match &kept {
-            Some(kept) => asked.suite(&on, target, &engine.keeping(kept)),
-            None => asked.suite(&on, target, engine),
-        }
-    })?;
-    let status = emit(&suite.result, folder, answer, &inputs)?;
-    if let Some(kept) = kept {
-        kept.done();
-    }
-    Ok(status)
+    keeping_runs(suite.result.out.as_deref(), |kept| {
+        let answer = first.compute(&suite, |engine| {
+            let target = target.as_ref().map(|(path, spectrum)| (path.as_str(), spectrum.clone()));
+            kept.with(engine, |engine| asked.suite(&on, target, engine))
+        })?;
+        emit(&suite.result, folder, answer, &inputs)
+    })
 }
 
 /// Names of the models: of several the stems of their files, or their paths where stems repeat.

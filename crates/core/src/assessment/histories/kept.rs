@@ -114,153 +114,164 @@ pub(super) fn read(line: &str) -> Option<RunFigures> {
     })
 }
 
-/// Whether there is a number, and it.
-fn optional(value: Option<f64>) -> [f64; 2] {
-    value.map_or([0.0; 2], |value| [1.0, value])
+/// Numbers on their way into a line, or out of one.
+enum Pass {
+    Out(Vec<f64>),
+    In(std::vec::IntoIter<f64>),
+}
+
+impl Pass {
+    fn number(&mut self, number: &mut f64) -> Option<()> {
+        match self {
+            Self::Out(all) => all.push(*number),
+            Self::In(rest) => *number = rest.next()?,
+        }
+        Some(())
+    }
+
+    fn flag(&mut self, is: &mut bool) -> Option<()> {
+        let mut number = f64::from(u8::from(*is));
+        self.number(&mut number)?;
+        *is = number == 1.0;
+        Some(())
+    }
+
+    fn count(&mut self, count: &mut u64) -> Option<()> {
+        let mut number = *count as f64;
+        self.number(&mut number)?;
+        *count = number as u64;
+        Some(())
+    }
+
+    /// Whether there is a number, and it.
+    fn optional(&mut self, value: &mut Option<f64>) -> Option<()> {
+        let (mut is, mut number) = (value.is_some(), value.unwrap_or(0.0));
+        self.flag(&mut is)?;
+        self.number(&mut number)?;
+        *value = is.then_some(number);
+        Some(())
+    }
+
+    fn storeys(&mut self, list: &mut Vec<StoreyDemands>) -> Option<()> {
+        let mut count = list.len() as u64;
+        self.count(&mut count)?;
+        for i in 0..count as usize {
+            if i == list.len() {
+                list.push(StoreyDemands::default());
+            }
+            let StoreyDemands {
+                peak_acceleration_m_per_s2,
+                peak_displacement_m,
+                peak_drift_m,
+                peak_drift_ratio,
+                peak_drift_velocity_m_per_s,
+                peak_shear_n,
+            } = &mut list[i];
+            self.number(peak_acceleration_m_per_s2)?;
+            self.number(peak_displacement_m)?;
+            self.number(peak_drift_m)?;
+            self.number(peak_drift_velocity_m_per_s)?;
+            self.optional(peak_drift_ratio)?;
+            self.optional(peak_shear_n)?;
+        }
+        Some(())
+    }
+
+    /// All numbers of demands, in one order; none of a model with surfaces in series or contents.
+    fn demands(&mut self, demands: &mut Demands) -> Option<()> {
+        let Demands {
+            peak_sliding_displacement_m,
+            peak_sliding_displacement_time_s,
+            max_sliding_displacement_m,
+            min_sliding_displacement_m,
+            residual_sliding_displacement_m,
+            sliding_at_end,
+            sliding_path_m,
+            peak_sliding_velocity_m_per_s,
+            sliding_time_s,
+            slip_count,
+            reversal_count,
+            stick_count,
+            peak_block_acceleration_m_per_s2,
+            storeys,
+            points,
+            peak_base_shear_n,
+            peak_friction_force_n,
+            peak_slider_force_n,
+            base_shear_coefficient,
+            friction_coefficient_used,
+            slider_force_coefficient,
+            closest_stop,
+            gap_ratio,
+            overturning_ratio,
+            stop,
+            surfaces,
+            contents,
+        } = demands;
+        if !(surfaces.is_empty() && contents.is_empty()) {
+            return None;
+        }
+        self.number(peak_sliding_displacement_m)?;
+        self.number(peak_sliding_displacement_time_s)?;
+        self.number(max_sliding_displacement_m)?;
+        self.number(min_sliding_displacement_m)?;
+        self.number(residual_sliding_displacement_m)?;
+        self.flag(sliding_at_end)?;
+        self.number(sliding_path_m)?;
+        self.number(peak_sliding_velocity_m_per_s)?;
+        self.number(sliding_time_s)?;
+        self.count(slip_count)?;
+        self.count(reversal_count)?;
+        self.count(stick_count)?;
+        self.number(peak_block_acceleration_m_per_s2)?;
+        self.number(peak_base_shear_n)?;
+        self.number(peak_friction_force_n)?;
+        self.number(peak_slider_force_n)?;
+        self.number(base_shear_coefficient)?;
+        self.number(friction_coefficient_used)?;
+        self.number(slider_force_coefficient)?;
+        self.optional(closest_stop)?;
+        self.optional(gap_ratio)?;
+        self.optional(overturning_ratio)?;
+        let mut has_stop = stop.is_some();
+        self.flag(&mut has_stop)?;
+        let mut of_stop = stop.unwrap_or_default();
+        let StopDemands {
+            contact_count,
+            impact_count,
+            peak_force_n,
+            peak_impact_speed_m_per_s,
+            contact_time_s,
+        } = &mut of_stop;
+        self.count(contact_count)?;
+        self.count(impact_count)?;
+        self.number(peak_force_n)?;
+        self.number(peak_impact_speed_m_per_s)?;
+        self.number(contact_time_s)?;
+        *stop = has_stop.then_some(of_stop);
+        self.storeys(storeys)?;
+        self.storeys(points)
+    }
 }
 
 /// All numbers of demands; none of a model with surfaces in series or contents.
 fn numbers(demands: &Demands) -> Option<Vec<f64>> {
-    let Demands {
-        peak_sliding_displacement_m,
-        peak_sliding_displacement_time_s,
-        max_sliding_displacement_m,
-        min_sliding_displacement_m,
-        residual_sliding_displacement_m,
-        sliding_at_end,
-        sliding_path_m,
-        peak_sliding_velocity_m_per_s,
-        sliding_time_s,
-        slip_count,
-        reversal_count,
-        stick_count,
-        peak_block_acceleration_m_per_s2,
-        storeys,
-        points,
-        peak_base_shear_n,
-        peak_friction_force_n,
-        peak_slider_force_n,
-        base_shear_coefficient,
-        friction_coefficient_used,
-        slider_force_coefficient,
-        closest_stop,
-        gap_ratio,
-        overturning_ratio,
-        stop,
-        surfaces,
-        contents,
-    } = demands;
-    if !(surfaces.is_empty() && contents.is_empty()) {
-        return None;
+    let mut pass = Pass::Out(Vec::new());
+    pass.demands(&mut demands.clone())?;
+    match pass {
+        Pass::Out(all) => Some(all),
+        Pass::In(_) => None,
     }
-    let mut all = vec![
-        *peak_sliding_displacement_m,
-        *peak_sliding_displacement_time_s,
-        *max_sliding_displacement_m,
-        *min_sliding_displacement_m,
-        *residual_sliding_displacement_m,
-        f64::from(u8::from(*sliding_at_end)),
-        *sliding_path_m,
-        *peak_sliding_velocity_m_per_s,
-        *sliding_time_s,
-        *slip_count as f64,
-        *reversal_count as f64,
-        *stick_count as f64,
-        *peak_block_acceleration_m_per_s2,
-        *peak_base_shear_n,
-        *peak_friction_force_n,
-        *peak_slider_force_n,
-        *base_shear_coefficient,
-        *friction_coefficient_used,
-        *slider_force_coefficient,
-    ];
-    all.extend([*closest_stop, *gap_ratio, *overturning_ratio].map(optional).as_flattened());
-    all.push(f64::from(u8::from(stop.is_some())));
-    let StopDemands {
-        contact_count,
-        impact_count,
-        peak_force_n,
-        peak_impact_speed_m_per_s,
-        contact_time_s,
-    } = stop.unwrap_or_default();
-    let counts = [contact_count as f64, impact_count as f64];
-    all.extend(counts);
-    all.extend([peak_force_n, peak_impact_speed_m_per_s, contact_time_s]);
-    for list in [storeys, points] {
-        all.push(list.len() as f64);
-        for StoreyDemands {
-            peak_acceleration_m_per_s2,
-            peak_displacement_m,
-            peak_drift_m,
-            peak_drift_ratio,
-            peak_drift_velocity_m_per_s,
-            peak_shear_n,
-        } in list
-        {
-            all.extend([peak_acceleration_m_per_s2, peak_displacement_m, peak_drift_m]);
-            all.push(*peak_drift_velocity_m_per_s);
-            all.extend([*peak_drift_ratio, *peak_shear_n].map(optional).as_flattened());
-        }
-    }
-    Some(all)
 }
 
 /// The demands of such numbers.
 fn read_demands(all: Vec<f64>) -> Option<Demands> {
-    let mut rest = all.into_iter();
-    let mut n = || rest.next();
-    let mut demands = Demands {
-        peak_sliding_displacement_m: n()?,
-        peak_sliding_displacement_time_s: n()?,
-        max_sliding_displacement_m: n()?,
-        min_sliding_displacement_m: n()?,
-        residual_sliding_displacement_m: n()?,
-        sliding_at_end: n()? == 1.0,
-        sliding_path_m: n()?,
-        peak_sliding_velocity_m_per_s: n()?,
-        sliding_time_s: n()?,
-        slip_count: n()? as u64,
-        reversal_count: n()? as u64,
-        stick_count: n()? as u64,
-        peak_block_acceleration_m_per_s2: n()?,
-        peak_base_shear_n: n()?,
-        peak_friction_force_n: n()?,
-        peak_slider_force_n: n()?,
-        base_shear_coefficient: n()?,
-        friction_coefficient_used: n()?,
-        slider_force_coefficient: n()?,
-        ..Demands::default()
-    };
-    let optional = |n: &mut dyn FnMut() -> Option<f64>| {
-        let (is, value) = (n()?, n()?);
-        Some((is == 1.0).then_some(value))
-    };
-    demands.closest_stop = optional(&mut n)?;
-    demands.gap_ratio = optional(&mut n)?;
-    demands.overturning_ratio = optional(&mut n)?;
-    let has_stop = n()? == 1.0;
-    let stop = StopDemands {
-        contact_count: n()? as u64,
-        impact_count: n()? as u64,
-        peak_force_n: n()?,
-        peak_impact_speed_m_per_s: n()?,
-        contact_time_s: n()?,
-    };
-    demands.stop = has_stop.then_some(stop);
-    for list in [&mut demands.storeys, &mut demands.points] {
-        let count = n()? as usize;
-        for _ in 0..count {
-            list.push(StoreyDemands {
-                peak_acceleration_m_per_s2: n()?,
-                peak_displacement_m: n()?,
-                peak_drift_m: n()?,
-                peak_drift_velocity_m_per_s: n()?,
-                peak_drift_ratio: optional(&mut n)?,
-                peak_shear_n: optional(&mut n)?,
-            });
-        }
+    let (mut pass, mut demands) = (Pass::In(all.into_iter()), Demands::default());
+    pass.demands(&mut demands)?;
+    match pass {
+        Pass::In(mut rest) => rest.next().is_none().then_some(demands),
+        Pass::Out(_) => None,
     }
-    n().is_none().then_some(demands)
 }
 
 #[cfg(test)]
