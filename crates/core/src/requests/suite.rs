@@ -220,7 +220,9 @@ impl Request {
         if let Some(range_s) = range_s {
             return Ok((Scaling::Target(spectrum, range_s), format!(" scaled to {words}")));
         }
-        let [least, most] = by.map_or(PERIODS, |code| code.periods);
+        let assumed = if by.is_none() { Some(Code::assumed()?) } else { None };
+        let Some(by) = by.or(assumed.as_ref()) else { return self.level() };
+        let [least, most] = by.periods;
         let range_s = effective_periods(analyses, &spectrum, by).ok_or_else(|| {
             let expected = format!(
                 "the range of periods beside the spectrum, 0.6 s..3.8 s: the model has no effective period by hand, of \
@@ -229,7 +231,7 @@ impl Request {
             refuse("periods", expected, "nothing")
         })?;
         let [from, to] = range_s.map(|period_s| format!("{period_s:.3}"));
-        let effective = if by.is_none_or(Code::is_asce) { "T_M" } else { "T_eff" };
+        let effective = if by.is_asce() { "T_M" } else { "T_eff" };
         let words =
             format!(" scaled to {words} from {from} s to {to} s ({least} to {most} {effective})");
         Ok((Scaling::Target(spectrum, range_s), words))
@@ -318,28 +320,21 @@ impl Request {
     }
 }
 
-/// The part of the shortest and of the longest effective period between which chapter 17 of ASCE/SEI 7 compares pairs with
-/// the spectrum.
-const PERIODS: [f64; 2] = [0.75, 1.25];
-
-/// The range in which a code, else chapter 17 of ASCE/SEI 7, compares pairs with the spectrum, in s: from a part of the
-/// effective period with the stiffest bound to a part of that with the softest; none where a model has none.
+/// The range in which a code compares pairs with the spectrum, in s: from a part of the effective period with the stiffest
+/// bound to a part of that with the softest; none where a model has none.
 fn effective_periods(
     analyses: &[Analysis],
     spectrum: &TargetSpectrum,
-    by: Option<&Code>,
+    by: &Code,
 ) -> Option<[f64; 2]> {
-    let of = |analysis: &Analysis| match by {
-        None => lateral(analysis, spectrum),
-        Some(code) => {
-            let with = |bound: Bound| code.lateral(&bound.of(&analysis.model), spectrum);
-            bounds(analysis).into_iter().map(with).collect()
-        }
+    let of = |analysis: &Analysis| -> Vec<_> {
+        let with = |bound: Bound| by.lateral(&bound.of(&analysis.model), spectrum);
+        bounds(analysis).into_iter().map(with).collect()
     };
     let all: Option<Vec<LateralForce>> = analyses.iter().flat_map(of).collect();
     let periods_s = || all.iter().flatten().map(|found| found.period_s);
     let (shortest_s, longest_s) = (periods_s().reduce(f64::min)?, periods_s().reduce(f64::max)?);
-    let [least, most] = by.map_or(PERIODS, |code| code.periods);
+    let [least, most] = by.periods;
     Some([least * shortest_s, most * longest_s])
 }
 

@@ -79,6 +79,17 @@ pub struct JudgedRule {
     pub found: Result<Compared, String>,
 }
 
+impl JudgedRule {
+    /// Its place among those that hold, do not, and are not judged.
+    fn place(&self) -> usize {
+        match &self.found {
+            Ok(compared) if compared.ok => 0,
+            Ok(_) => 1,
+            Err(_) => 2,
+        }
+    }
+}
+
 /// A demand beside its capacity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Compared {
@@ -276,13 +287,7 @@ impl Judgement {
     #[must_use]
     pub fn counts(&self) -> [usize; 3] {
         let mut counts = [0; 3];
-        for rule in self.required() {
-            counts[match &rule.found {
-                Ok(compared) if compared.ok => 0,
-                Ok(_) => 1,
-                Err(_) => 2,
-            }] += 1;
-        }
+        self.required().for_each(|rule| counts[rule.place()] += 1);
         counts
     }
 
@@ -296,11 +301,7 @@ impl Judgement {
                 all.push((name, [0; 3]));
             }
             for (_, counts) in all.iter_mut().filter(|(known, _)| known == name) {
-                counts[match &rule.found {
-                    Ok(compared) if compared.ok => 0,
-                    Ok(_) => 1,
-                    Err(_) => 2,
-                }] += 1;
+                counts[rule.place()] += 1;
             }
         }
         all

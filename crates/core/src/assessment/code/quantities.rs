@@ -222,15 +222,8 @@ impl<'a> Quantities<'a> {
         };
         let weight_n = self.models[at.bound].weight_n();
         Ok(match name {
-            "max" => all()?.into_iter().fold(f64::NEG_INFINITY, f64::max),
-            "min" => all()?.into_iter().fold(f64::INFINITY, f64::min),
-            "sqrt" => argument(0)?.sqrt(),
-            "at_least" => f64::from(u8::from(argument(0)? >= argument(1)?)),
-            "table" => {
-                let values = all()?;
-                let rows: Vec<[f64; 2]> =
-                    values[1..].chunks_exact(2).map(|row| [row[0], row[1]]).collect();
-                interpolated(&rows, values[0])
+            "max" | "min" | "sqrt" | "at_least" | "table" => {
+                of_numbers(name, &all()?).ok_or_else(|| format!("{name} of too little"))?
             }
             "else" => return argument(0).or_else(|_| argument(1)),
             "known_max" => {
@@ -420,6 +413,22 @@ impl Code {
     }
 }
 
+/// A function of numbers alone; none of another, and of too few of them.
+fn of_numbers(name: &str, of: &[f64]) -> Option<f64> {
+    Some(match name {
+        "max" => of.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        "min" => of.iter().copied().fold(f64::INFINITY, f64::min),
+        "sqrt" => of.first()?.sqrt(),
+        "at_least" => f64::from(u8::from(of.first()? >= of.get(1)?)),
+        "table" => {
+            let (x, rows) = of.split_first()?;
+            let rows = rows.chunks_exact(2).map(|row| [row[0], row[1]]);
+            interpolated(&rows.collect::<Vec<_>>(), *x)
+        }
+        _ => return None,
+    })
+}
+
 /// The factor of an effective damping, of a formula of `beta` alone.
 fn damping(formula: &Formula, ratio: f64) -> Option<f64> {
     Some(match formula {
@@ -430,17 +439,7 @@ fn damping(formula: &Formula, ratio: f64) -> Option<f64> {
         }
         Formula::Call(name, of) => {
             let all: Option<Vec<f64>> = of.iter().map(|one| damping(one, ratio)).collect();
-            let all = all?;
-            match &name[..] {
-                "max" => all.into_iter().fold(f64::NEG_INFINITY, f64::max),
-                "min" => all.into_iter().fold(f64::INFINITY, f64::min),
-                "sqrt" => all.first()?.sqrt(),
-                "table" => {
-                    let rows = all.get(1..)?.chunks_exact(2).map(|row| [row[0], row[1]]);
-                    interpolated(&rows.collect::<Vec<_>>(), *all.first()?)
-                }
-                _ => return None,
-            }
+            of_numbers(name, &all?)?
         }
     })
 }

@@ -163,6 +163,14 @@ impl Code {
         })
     }
 
+    /// That of ASCE/SEI 7, by which the hand calculation is made where no code is named.
+    ///
+    /// # Errors
+    /// As [`Code::named`].
+    pub(crate) fn assumed() -> Result<Self, ChoiceError> {
+        Self::named(FILES[0].0)
+    }
+
     /// Whether its hand calculation is that of ASCE/SEI 7.
     pub(crate) fn is_asce(&self) -> bool {
         self.name == FILES[0].0

@@ -5,11 +5,9 @@ use slipstick::assessment::histories::ModelHistories;
 use slipstick::response::Demands;
 
 use super::HistoriesReport;
+use super::judged::DIRECTIONS;
 use crate::assessment::sheet::{SheetTable, cell};
 use crate::display::Quantity;
-
-/// Names of directions.
-const AXES: [&str; 2] = ["x", "y"];
 
 impl HistoriesReport<'_> {
     /// One row a force and direction, a column a bound.
@@ -21,7 +19,8 @@ impl HistoriesReport<'_> {
             let one = |bound| model.governing_along(bound, axis, of).unwrap_or(f64::NAN);
             bounds.clone().map(one).collect()
         };
-        let along = |axis: Option<usize>| axis.map_or(String::new(), |i| format!(", {}", AXES[i]));
+        let along =
+            |axis: Option<usize>| axis.map_or(String::new(), |i| format!(", {}", DIRECTIONS[i]));
         let heads = match model.bounds.as_slice() {
             [_] => vec![model.statistic().to_owned()],
             several => several.iter().map(|bound| bound.name.to_owned()).collect(),

@@ -12,7 +12,7 @@ use crate::number::compact;
 use crate::view;
 
 /// Names of directions.
-const DIRECTIONS: [&str; 2] = ["x", "y"];
+pub(super) const DIRECTIONS: [&str; 2] = ["x", "y"];
 
 /// A value with its unit, as people read it.
 fn shown(value: f64, unit: CodeUnit, display: DisplayUnits) -> String {
