@@ -19,6 +19,7 @@ mod target;
 pub(crate) mod texts;
 mod words;
 
+use super::quality;
 use super::text::Text;
 use super::{
     Channel, FilterCorners, Format, Options, Record, RecordError, Sampling, Units, keys_to_add,
@@ -120,8 +121,7 @@ fn series(
 ) -> Result<(Vec<ColumnSeries>, Vec<Notice>), RecordError> {
     let mut warnings = layout.notices.clone();
     if let Some(line) = table.tail {
-        let message = format!("the last line, {line}, is words and no numbers: skipped");
-        warnings.push(Notice::new(NoticeKind::ColumnSkipped, message));
+        warnings.push(quality::last_line_of_words(line));
     }
     if layout.wrapped {
         let message = format!(

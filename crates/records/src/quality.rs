@@ -178,6 +178,12 @@ pub fn judged(values: &[f64], sampling: &Sampling, units: &Units) -> Vec<Notice>
     warnings
 }
 
+/// Of a last line that is words and none of the numbers.
+pub(super) fn last_line_of_words(line: usize) -> Notice {
+    let message = format!("the last line, {line}, is words and no numbers: skipped");
+    Notice::new(NoticeKind::ColumnSkipped, message)
+}
+
 /// A warning where the largest value of a channel is not the peak that its file states: `stated` in
 /// `unit`, written with a last digit of `ulp`, on a line of that number. Half a percent and three
 /// units in the last digit are allowed, because programs that wrote both rounded in between.

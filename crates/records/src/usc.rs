@@ -9,7 +9,7 @@ use super::csmip;
 use super::fixed::Cursor;
 use super::text::{Line, Text};
 use super::volume::{Head, Names, end_of_channel};
-use super::{Format, Options, Record, RecordError};
+use super::{Format, Options, Record, RecordError, quality};
 use slipstick_dynamics::notice::{Notice, NoticeKind};
 
 /// Where the text of a line ends and its length stands.
@@ -31,8 +31,7 @@ pub(super) fn read(text: &Text, options: &Options) -> Result<Record, RecordError
     let mut warnings = Vec::new();
     loop {
         if let Some(line) = (!channels.is_empty()).then(|| stray(&mut cursor)).flatten() {
-            let message = format!("the last line, {line}, is words and no numbers: skipped");
-            warnings.push(Notice::new(NoticeKind::ColumnSkipped, message));
+            warnings.push(quality::last_line_of_words(line));
             break;
         }
         let Some(head) = Head::read(&mut cursor)? else { break };

@@ -18,7 +18,7 @@ pub(crate) struct Ring {
     pub(crate) restraint: Restraint,
 }
 
-/// Size of a vector, and scalar product.
+/// Scalar product.
 fn inner(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }

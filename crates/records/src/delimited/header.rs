@@ -1,7 +1,8 @@
 //! What stands before the numbers: comments, text, names of the columns with their units.
 
-use super::style::{Separator, separated};
+use super::style::Separator;
 use super::table::TextTable;
+use super::texts::cell_ranges;
 use crate::text::{Line, Text, number, number_with_comma};
 use crate::unit::{Quantity, Units, seconds};
 use slipstick_dynamics::error::RecordError;
@@ -122,14 +123,7 @@ impl RowShape {
 
 /// The cells of a line without the blanks around them.
 fn cells(line: &[u8], separator: u8) -> Vec<&[u8]> {
-    let mut all = Vec::new();
-    let mut rest = line;
-    while let Some(length) = separated(rest, separator) {
-        all.push(rest[..length].trim_ascii());
-        rest = &rest[length + 1..];
-    }
-    all.push(rest.trim_ascii());
-    all
+    cell_ranges(line, separator).into_iter().map(|range| &line[range]).collect()
 }
 
 impl<'a> Header<'a> {

@@ -33,7 +33,7 @@ const SETTLED: f64 = 4.0 * f64::EPSILON;
 
 /// Most lengths that are tried for a step without friction, and most corrections of the force over each.
 const MOST_LENGTHS: usize = 60;
-const MOST_CORRECTIONS: usize = 40;
+pub(super) const MOST_CORRECTIONS: usize = 40;
 
 impl Plane<'_> {
     fn pressed(&self) -> Option<Ring> {

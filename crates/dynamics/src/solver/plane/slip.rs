@@ -3,6 +3,7 @@
 use super::Plane;
 use super::nodes::{NODES, nodes};
 use super::peaks::squared;
+use super::ring::MOST_CORRECTIONS;
 use super::series::Kind;
 use super::stop::Instant;
 use super::system::Loads;
@@ -39,9 +40,6 @@ const AT_CORNER: f64 = 16.0 * f64::EPSILON;
 
 /// A part of a step that is all of it.
 const WHOLE: f64 = 1.0 - 4.0 * f64::EPSILON;
-
-/// Most corrections of what depends on where the block is.
-const MOST_CORRECTIONS: usize = 40;
 
 /// Most cuts of a step to a corner: each comes nearer to it by the digits that the velocity has within a step.
 const MOST_CUTS: usize = 8;
