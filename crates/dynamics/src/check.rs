@@ -299,8 +299,11 @@ fn well_formed(model: &Model, n: usize, motion: &GroundMotion, history: &History
         &history.storey_velocity_m_per_s,
         &history.storey_acceleration_m_per_s2,
     ];
-    let elastic = matches!(model.stop(), Some(Stop { kind: StopKind::Elastic { .. }, .. }));
-    let contacts = if elastic { knots } else { 0 };
+    // In two directions a block may also slide along a stop that does not give way.
+    let is_in_plane = motion.horizontal_y_m_per_s2().is_some();
+    let elastic = |stop: &Stop| matches!(stop.kind, StopKind::Elastic { .. });
+    let is_listed = model.stop().is_some_and(|stop| is_in_plane || elastic(stop));
+    let contacts = if is_listed { knots } else { 0 };
     let contents = model.contents().len();
     let surfaces = model.slider().series().map_or(0, |series| series.surfaces().len());
     let contents_lists = [

@@ -318,6 +318,13 @@ impl Model {
             Damping::Dampers(c) => each("storey dampers_y_n_s_per_m", n, c, not_negative)?,
         }
         check_start(&along_y.initial, started)?;
+        if let Some(stop) = self.slider.stop() {
+            let start = [&self.initial, &along_y.initial];
+            let [x, y] = start.map(|initial| initial.sliding_displacement_m);
+            if y != 0.0 {
+                stop.admits(libm::hypot(x, y))?;
+            }
+        }
         self.along_y = Some(along_y);
         Ok(self)
     }

@@ -496,7 +496,6 @@ fn refuse_in_plane(values: &Values) -> Result<(), InputError> {
         "slider.asymmetry",
         "slider.static_friction.positive",
         "slider.kinetic_friction.positive",
-        "slider.stop.restitution",
         "slider.surface",
         "slider.triple",
         "contents",
@@ -511,8 +510,7 @@ fn refuse_in_plane(values: &Values) -> Result<(), InputError> {
         Some(path) => {
             let expected = "a model that is solved in two directions: one surface whose \
                             friction is the same in all directions, without contents \
-                            or a stop other than an elastic one with the same gap all around, by the \
-                            exact method";
+                            or a stop whose gap is not the same all around, by the exact method";
             let apart = ", or the components of pairs run by themselves, pairs = separate";
             let apart = if values.in_plane { apart } else { "" };
             Err(values.error(path, format!("{expected}{apart}"), path))

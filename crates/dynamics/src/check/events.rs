@@ -73,12 +73,17 @@ impl Events {
         kind.is_some()
     }
 
-    /// Passes to the knot `k`, at which the block has perhaps struck a rigid stop, and goes into a stop at a speed; whether
-    /// contact with an elastic one changes.
-    pub(super) fn pass(&mut self, h: &History, k: usize, struck: bool, speed_into: f64) -> bool {
+    /// Passes to the knot `k`, at which the block has perhaps struck a rigid stop at a speed, and goes into a stop at a speed;
+    /// whether contact changes.
+    pub(super) fn pass(
+        &mut self,
+        h: &History,
+        k: usize,
+        struck: Option<f64>,
+        speed_into: f64,
+    ) -> bool {
         let (before, after) = (h.modes(k - 1), h.modes(k));
-        if struck {
-            let speed = h.sliding_velocity_m_per_s[k - 1].abs();
+        if let Some(speed) = struck {
             self.impacts = self.impacts.max(speed);
             if let Some(turn) = self.turn.take()
                 && speed < SLOWEST_IMPACT_M_PER_S
@@ -86,14 +91,15 @@ impl Events {
                 self.list.remove(turn);
             }
             self.active = None;
+            let bears = matches!(h.contact.get(k), Some(Contact::Pressed(_)));
             if after[0] == Mode::Stick {
                 self.push(h, k, 0, EventKind::Rest, speed);
-            } else if speed >= SLOWEST_IMPACT_M_PER_S {
+            } else if speed >= SLOWEST_IMPACT_M_PER_S && !bears {
                 self.push(h, k, 0, EventKind::Impact, speed);
             }
             self.turn = None;
         }
-        for i in usize::from(struck)..after.len() {
+        for i in usize::from(struck.is_some())..after.len() {
             let kind = match (before[i], after[i]) {
                 (Mode::Stick, Mode::Slip(_)) => EventKind::Slip,
                 (Mode::Slip(_), Mode::Stick) => EventKind::Stick,

@@ -281,7 +281,11 @@ where
     fn walk(&mut self) -> Result<(), Stopped> {
         let (h, last) = (self.h, self.h.len() - 1);
         let [s, w] = self.at_stop(0);
-        let contact = self.law.contact_at_start(s, w);
+        let contact = match self.contact(0) {
+            // A start at a rigid stop, along it.
+            bears if w == 0.0 && self.law.bears_on_stop(s) != [false; 2] => bears,
+            _ => self.law.contact_at_start(s, w),
+        };
         let touched = self.events.begin(h, &self.at_start, (contact, w.abs()));
         if self.at_start != h.modes(0) {
             self.changed(0);
@@ -300,8 +304,7 @@ where
                 self.join(from, arrived);
             }
             if from < to {
-                let bears_on_stop =
-                    self.law.bears_on_stop(h.sliding_displacement_m[from]) != [false; 2];
+                let bears_on_stop = self.law.bears_on_stop(self.at_stop(from)[0]) != [false; 2];
                 let length_s = h.time_s[to] - h.time_s[from];
                 self.totals.add(h.modes(from), self.contact(from), length_s, bears_on_stop);
                 self.go_through(run)?;
@@ -333,8 +336,8 @@ where
             self.close(i, before[i]);
         }
         let touched = (struck || before != after || !h.contact.is_empty()) && {
-            let [_, speed] = self.at_stop(k);
-            self.events.pass(h, k, struck, speed.abs())
+            let [before, speed] = [k - 1, k].map(|k| self.at_stop(k)[1].abs());
+            self.events.pass(h, k, struck.then_some(before), speed)
         };
         if before != after {
             self.changed(k);
@@ -415,7 +418,8 @@ where
     /// is 0.
     fn near_misses(&self) -> Vec<ClosestCall> {
         let h = self.h;
-        let largest_m = || h.sliding_displacement_m.iter().fold(0.0, |most, s| larger(most, *s));
+        let place = |k: usize| self.at_stop(k)[0];
+        let largest_m = || (0..h.len()).fold(0.0, |most, k| larger(most, place(k)));
         let mut calls = Vec::new();
         for side in Direction::BOTH {
             let Some(wall) = self.law.wall(side) else { continue };
@@ -424,9 +428,9 @@ where
             let halts = (0..h.len().saturating_sub(1)).filter(|&k| {
                 h.modes(k)[0] == Mode::Slip(side)
                     && h.modes(k + 1)[0] != Mode::Slip(side)
-                    && h.sliding_velocity_m_per_s[k] == 0.0
+                    && self.speed_at(k, 0) == 0.0
             });
-            let turns = halts.map(|k| (side.sign() * h.sliding_displacement_m[k], k));
+            let turns = halts.map(|k| (side.sign() * place(k), k));
             let turns = turns.filter(|(s, _)| *s < gap_m);
             if let Some((s, k)) = turns.reduce(|a, b| if b.0 > a.0 { b } else { a }) {
                 let scale_m = if gap_m > 0.0 { gap_m } else { largest_m() };

@@ -20,7 +20,7 @@ use super::law::Law;
 use super::outputs::Outputs;
 use super::{Certificate, MAX_RADIANS, unjudged, well_formed};
 use crate::error::Stopped;
-use crate::model::{Model, Stop, StopKind};
+use crate::model::{Model, Stop};
 use crate::motion::GroundMotion;
 use crate::progress::{Cancel, Pulse};
 use crate::response::{History, HistoryAlongY, Response};
@@ -76,11 +76,10 @@ fn is_within(model: &Model) -> bool {
         && model.contents().is_empty()
 }
 
-/// Whether a stop gives way and is the same all around.
+/// Whether a stop is the same all around.
 fn is_ring(stop: &Stop) -> bool {
     let [one, other] = stop.gap_m;
-    let gives_way = matches!(stop.kind, StopKind::Elastic { .. });
-    gives_way && one == other && one.is_some_and(|gap_m| gap_m > 0.0)
+    one == other && one.is_some_and(|gap_m| gap_m > 0.0)
 }
 
 /// The direction of the line through rest that all of a motion and of the start is on, where a model with this frame

@@ -2,6 +2,10 @@
 //!
 //! With `ρ = |s|`, `n = s/ρ` and `δ = ρ − d` it pushes the block back along `−n` by `max(0, k δ + c ρ̇)` while `δ > 0`, as a
 //! pad does in one direction, and takes no force along the ring.
+//!
+//! One that does not give way is struck at `ρ = d`: `ρ̇⁺ = −e ρ̇⁻`, while the velocity along it stays. A block that has no
+//! velocity towards it any more bears on it, and slides along it, for as long as what it pushes with is no less than zero.
+//! At rest against it, friction takes what pushes along the ring, and the ring what pushes towards it.
 
 use super::stop::{Contact, Stop, StopKind};
 use super::{Direction, Restraint};
@@ -9,13 +13,15 @@ use super::{Direction, Restraint};
 /// In two directions a ring is pressed on the one side that it has.
 const SIDE: Direction = Direction::Positive;
 
-/// An elastic ring.
+/// A ring.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Ring {
     /// `d` in m.
     pub(crate) gap_m: f64,
-    /// `k` and `c`.
+    /// `k` and `c` of one that gives way.
     pub(crate) restraint: Restraint,
+    /// `e` of one that does not.
+    pub(crate) restitution: Option<f64>,
 }
 
 /// Scalar product.
@@ -34,12 +40,15 @@ impl Ring {
     /// # Errors
     /// What of it is none.
     pub(super) fn of(stop: &Stop) -> Result<Self, &'static str> {
-        let StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } = stop.kind else {
-            return Err("a rigid stop");
+        let (restraint, restitution) = match stop.kind {
+            StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } => {
+                (Restraint { stiffness_n_per_m, damper_n_s_per_m }, None)
+            }
+            StopKind::Rigid { restitution } => (Restraint::default(), Some(restitution)),
         };
         match stop.gap_m {
             [Some(gap_m), Some(other_m)] if gap_m == other_m && gap_m > 0.0 => {
-                Ok(Self { gap_m, restraint: Restraint { stiffness_n_per_m, damper_n_s_per_m } })
+                Ok(Self { gap_m, restraint, restitution })
             }
             [Some(_), Some(other_m)] if stop.gap_m == [Some(other_m); 2] => {
                 Err("a stop without a gap")
@@ -76,9 +85,21 @@ impl Ring {
         s.map(|s| size * s)
     }
 
+    /// Of one that does not give way, what the block pushes it with over `M1`, where its push without the ring is known.
+    pub(crate) fn bears_per_kg(&self, s: [f64; 2], w: [f64; 2], push: [f64; 2]) -> f64 {
+        let radius = inner(s, s).sqrt();
+        let bears = (inner(s, push) + inner(w, w)) / radius;
+        // At rest nothing holds it there.
+        if w == [0.0; 2] { bears.max(0.0) } else { bears }
+    }
+
     /// Where the block stands to it at a start.
     pub(crate) fn contact_at_start(&self, s: [f64; 2], w: [f64; 2]) -> Contact {
         let radius = inner(s, s).sqrt();
+        if self.restitution.is_some() {
+            let bears = radius >= self.gap_m && inner(s, w) == 0.0;
+            return if bears { Self::PRESSED } else { Contact::Free };
+        }
         if radius > self.gap_m {
             return if self.pushes_n(s, w) >= 0.0 { Self::PRESSED } else { Self::SEPARATED };
         }

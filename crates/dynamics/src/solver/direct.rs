@@ -21,14 +21,14 @@ use super::walk::Walk;
 use crate::error::SolveError;
 use crate::linear::polynomial::{DEGREE, Polynomial};
 use crate::model::Model;
-use crate::notice::{Notice, NoticeKind};
+use crate::notice::Notice;
 use crate::numerics::InstructionSet;
 use crate::progress::{Cancel, Pulse};
 use crate::response::output::{self, Output};
 use crate::response::{ContentsDemands, Event, EventKind, History, Mode};
 use crate::slider::{Hold, Law, SlipForce};
 
-use super::summary::Outcome;
+use super::summary::{self, Outcome};
 
 /// What an analysis leaves behind.
 pub(super) struct Stepped {
@@ -95,14 +95,7 @@ fn stepped(walk: Walk<'_, Direct<'_>>) -> Stepped {
     let contents = phase.body.part_of.iter().map(of_part).collect();
     let mut outcome = walk.outcome(phase.peaks.inertia.arms.is_some());
     outcome.events = events_of_items(&phase.body, &outcome.events);
-    let warnings = outcome.first_impact_s.map(|time_s| {
-        Notice::new(
-            NoticeKind::ImpulsesExcluded,
-            "the block strikes a rigid stop: peak accelerations and forces are those of the \
-                  motion between impacts, without the impulses",
-        )
-        .at(time_s)
-    });
+    let warnings = outcome.first_impact_s.map(summary::impulses_excluded);
     Stepped {
         outcome,
         contents,

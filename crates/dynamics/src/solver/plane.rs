@@ -7,6 +7,7 @@
 
 mod ahead;
 mod force;
+mod impact;
 mod mass;
 mod nodes;
 mod peaks;
@@ -83,6 +84,10 @@ pub(super) struct Plane<'a> {
     reached: Option<Contact>,
     /// The largest force of the stop in N.
     peak_stop_n: f64,
+    /// `ρ² − d²` of a block that has struck or left a stop which does not give way, in m²: `s` itself has not the digits.
+    off_stop_m2: Option<f64>,
+    /// The size of the terms of what such a stop takes over `M1`.
+    borne_terms: f64,
     series: PlaneSeries,
     influence: Influence,
     force: Force,
@@ -122,6 +127,8 @@ impl<'a> Plane<'a> {
             is_near_rest: false,
             reached: None,
             peak_stop_n: 0.0,
+            off_stop_m2: None,
+            borne_terms: 0.0,
             series: PlaneSeries::new(&system, instructions),
             influence: Influence::new(instructions, again_s),
             force: Force::new(),
@@ -298,8 +305,9 @@ impl<'a> Events for Walk<'a, Plane<'a>> {
             Mode::Stick => self.phase.hold(stretch, at_s),
             Mode::Slip(_) => self.phase.slide(stretch, at_s),
         };
-        // A step is counted as an event, one without length as a thousand: none of these moves on.
-        self.course.events_in_interval += if to_s > at_s { 1 } else { 1000 };
+        // A step is counted as an event, one without length as a thousand: none of these moves on, but to another contact.
+        let moves_on = to_s > at_s || self.phase.reached.is_some();
+        self.course.events_in_interval += if moves_on { 1 } else { 1000 };
         let is_near_rest = self.phase.series.kind == Kind::Slip && self.phase.is_near_rest;
         // Where times are as close as that they tell no knot from the next.
         let instant_s = INSTANTS * f64::EPSILON * self.ground.times_s[stretch.interval];
@@ -348,27 +356,26 @@ impl<'a> Events for Walk<'a, Plane<'a>> {
         phase.least.interrupt();
         let sliding_displacement_y_m = phase.state.s[1];
         phase.events.push(EventInPlane { direction, sliding_displacement_y_m });
-        self.touch_at_rest(at.time_s, direction);
+        self.touch_at_rest((stretch, at_s), direction);
         true
     }
 
     fn peaks_at_jump(&mut self, stretch: &Stretch) {
         let loads = self.phase.loads(stretch, 0.0);
         let phase = &mut self.phase;
-        phase.hold_stop();
-        let kind = match self.course.block.mode {
-            Mode::Stick => Kind::Stick,
+        match self.course.block.mode {
+            Mode::Stick => phase.expand_stick(loads, 1e-3),
             Mode::Slip(_) => {
                 let at = phase.instant(&loads);
+                phase.hold_stop_under(&loads);
                 phase.series.from = phase.direction;
                 let taken = phase.direction.map(|u| at.friction * u);
                 for (friction, taken) in phase.series.friction.iter_mut().zip(taken) {
                     (*friction, friction[0]) = (ZERO, taken);
                 }
-                Kind::Slip
+                phase.expand(Kind::Slip, (loads, 1e-3));
             }
-        };
-        phase.expand(kind, (loads, 1e-3));
+        }
         phase.look_for_peaks(stretch, 0.0, 0.0);
         phase.starts = false;
     }

@@ -93,6 +93,16 @@ pub(super) fn demands(model: &Model, outcome: &Outcome, peak: impl Fn(Output) ->
     }
 }
 
+/// That impulses are in no peak.
+pub(super) fn impulses_excluded(time_s: f64) -> Notice {
+    Notice::new(
+        NoticeKind::ImpulsesExcluded,
+        "the block strikes a rigid stop: peak accelerations and forces are those of the motion between impacts, \
+         without the impulses",
+    )
+    .at(time_s)
+}
+
 /// What follows from model and events alone.
 pub(super) fn warnings(
     model: &Model,

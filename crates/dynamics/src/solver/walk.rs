@@ -5,7 +5,7 @@
 //! at rigid stops in `impact`. Where a phase can, it runs ahead of this over whole samples.
 
 mod decide;
-mod impact;
+pub(in crate::solver) mod impact;
 mod straight;
 
 use super::course::WalkState;
@@ -37,7 +37,7 @@ pub(super) struct Walk<'a, P: ?Sized> {
     bears_on_stop_since_s: Option<f64>,
     /// The last turn since the last impact.
     turn: Option<usize>,
-    first_impact_s: Option<f64>,
+    pub(super) first_impact_s: Option<f64>,
     pub(super) phase: P,
 }
 
@@ -196,9 +196,7 @@ where
             }
         }
         let slider = &mut self.course.slider;
-        if slider.law.has_pads() {
-            slider.stopping.change(end_s, 0.0, slider.memory.contact, Contact::Free);
-        }
+        slider.stopping.change(end_s, 0.0, slider.memory.contact, Contact::Free);
         self.course.slider.note_surfaces(self.phase.position_and_velocity(0)[0]);
         self.end(end_s);
         P::settle(self);

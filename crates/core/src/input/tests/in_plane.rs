@@ -154,10 +154,6 @@ fn keys_of_one_direction_or_two() {
     for (text, key) in [
         (format!("{BLOCK}asymmetry = 0.1\n{PAIR}"), "slider.asymmetry"),
         (
-            format!("{BLOCK}stop = {{ gap = \"0.1 m\", restitution = 0 }}\n{PAIR}"),
-            "slider.stop.restitution",
-        ),
-        (
             format!("{BLOCK}stop = {{ gap = \"0 m\", stiffness = \"1 MN/m\" }}\n{PAIR}"),
             "slider.stop.gap",
         ),

@@ -58,7 +58,7 @@ pub struct System {
     /// `sin θ` of the tilt along x and y.
     pub slope: [f64; 2],
     /// Gap, stiffness and damper of a stop around the block.
-    pub ring: Option<[f64; 3]>,
+    pub ring: Option<Stop>,
 }
 
 #[derive(Clone, Copy)]
@@ -158,8 +158,22 @@ impl System {
         let total_kg = self.mass_kg + self.floors_kg.iter().sum::<f64>();
         let rate = [5.0, 30.0, 150.0][(r.unit() * 3.0) as usize] * r.between(0.5, 2.0);
         let ratio = if r.chance(0.3) { 0.0 } else { r.between(0.0, 0.6) };
-        let ring = [gap_m, total_kg * rate * rate, 2.0 * ratio * total_kg * rate];
+        let ring =
+            Stop::elastic([Some(gap_m); 2], total_kg * rate * rate, 2.0 * ratio * total_kg * rate);
         Self { ring: Some(ring), ..self.clone() }
+    }
+
+    /// The same with one that does not give way.
+    pub fn with_wall(&self, seed: u64) -> Self {
+        let mut r = Random::new(5_000_011 + seed);
+        let ringed = self.with_ring(seed);
+        let restitution = match (r.unit() * 4.0) as usize {
+            0 => 0.0,
+            1 => 1.0,
+            _ => r.between(0.05, 0.95),
+        };
+        let ring = ringed.ring.map(|ring| Stop::rigid(ring.gap_m, restitution));
+        Self { ring, ..ringed }
     }
 
     /// The same with friction by straight lines of the speed.
@@ -288,10 +302,7 @@ impl System {
         };
         let block = Block { mass_kg: self.mass_kg, width_m: Some(0.6), height_m: Some(0.4) };
         let [tilt_rad, tilt_y_rad] = self.slope.map(libm::asin);
-        let ends = match self.ring {
-            Some([gap_m, k, c]) => Stop::elastic([Some(gap_m); 2], k, c).into(),
-            None => slider.ends,
-        };
+        let ends = self.ring.map_or(slider.ends, Stop::into);
         let damper_n_s_per_m = self.damper;
         let slider = Slider { damper_n_s_per_m, tilt_rad, tilt_y_rad, ends, ..slider };
         Model::new(block, slider, frame, 9.80665, initial(0))

@@ -1,8 +1,10 @@
 //! Decisions of a slider in a plane: what lets go, what comes to rest, and how close it was.
 
 use super::super::collocation::POINTS;
+use super::super::events::SLOWEST_IMPACT_M_PER_S;
 use super::super::ground::nearest;
 use super::super::structure::larger;
+use super::super::{ClosestCall, DecisionKind};
 use super::frame::{Loads, Pair, State, between, dot, norm, pair, unit};
 use super::judge::{EventDirection, Minima, PlaneJudge, REST};
 use super::step::{FINE, Step, Stretch, sine};
@@ -55,6 +57,9 @@ impl<'a> PlaneJudge<'a> {
         };
         if self.mode(k) == Mode::Stick {
             self.axes.event_directions.push(turn);
+            if self.strikes(k) {
+                return;
+            }
             let best = nearest(off).iter().position(|is| *is);
             return self.comes_to_rest(k, &all[best.unwrap_or(0)]);
         }
@@ -114,9 +119,17 @@ impl<'a> PlaneJudge<'a> {
 
     /// The last direction of sliding before a stop at a knot.
     fn last_heading(&self, k: usize) -> Option<Pair> {
-        let before = (0..k).rev().take_while(|&j| self.mode(j) != Mode::Stick);
-        let stored = before.take(3).find_map(|j| unit(self.state(j).speed()));
-        self.axes.heading.or(stored)
+        if let Some(heading) = self.axes.heading {
+            return Some(heading);
+        }
+        for j in (k.saturating_sub(3)..k).rev().take_while(|&j| self.mode(j) != Mode::Stick) {
+            let stored = unit(self.state(j).speed());
+            // What a block had for a direction before it struck a stop it no longer has.
+            if stored.is_some() || self.strikes(j) {
+                return stored;
+            }
+        }
+        None
     }
 
     /// Directions of sliding that pass between two knots of one time.
@@ -276,6 +289,56 @@ impl<'a> PlaneJudge<'a> {
             let [first, second] = [1, 2].map(|point| step.heading(frame, point, [0.0; 2]));
             (turn.direction, turn.force_n) = (Some(first), f64::INFINITY);
             turn.unsure = 2.0 * norm([first[0] - second[0], first[1] - second[1]]);
+        }
+    }
+
+    /// Whether the block strikes a stop that does not give way between the knot before `k` and `k`.
+    pub(super) fn strikes(&self, k: usize) -> bool {
+        let h = self.h;
+        let Some(ring) = self.frame().stop.filter(|ring| ring.is_rigid) else { return false };
+        if k == 0 || h.time_s[k] != h.time_s[k - 1] {
+            return false;
+        }
+        let [before, after] = [k - 1, k].map(|k| self.state(k).speed());
+        let slack_m = self.instant_s * norm(before) + 8.0 * f64::EPSILON * ring.gap_m;
+        before != after
+            && dot(self.place(k), before) > 0.0
+            && (norm(self.place(k)) - ring.gap_m).abs() <= slack_m
+    }
+
+    /// Judges an impact: `ρ̇⁺ = −e ρ̇⁻`, the velocity along the stop and absolute velocities of floors as before.
+    pub(super) fn impact(&mut self, k: usize) {
+        let e = self.law.restitution().unwrap_or(0.0);
+        let [before, after] = [k - 1, k].map(|k| self.state(k));
+        let n = unit(self.place(k)).unwrap_or_default();
+        let (was, is) = (before.speed(), after.speed());
+        let speed = dot(n, was);
+        let expected = [0, 1].map(|i| was[i] - (1.0 + e) * speed * n[i]);
+        let off = norm([is[0] - expected[0], is[1] - expected[1]]);
+        let lost = [was[0] - is[0], was[1] - is[1]];
+        self.axes.heading = unit(is);
+        let f = &mut self.figures;
+        f.velocity[0] = larger(f.velocity[0], off);
+        for i in 0..before.x.len() {
+            f.displacement[0] = larger(f.displacement[0], after.x[i] - before.x[i]);
+            if let Some(part) = i.checked_sub(2) {
+                let expected = before.v[i] + self.axes.stepper.frame.ridden(part, lost);
+                f.velocity[0] = larger(f.velocity[0], after.v[i] - expected);
+            }
+        }
+        let frame = self.frame();
+        self.books.damping[k - 1] =
+            0.5 * (dot(was, frame.inertia(was)) - dot(is, frame.inertia(is)));
+        if speed < SLOWEST_IMPACT_M_PER_S {
+            return;
+        }
+        let (margin, time_s) = (speed / self.figures.velocity[1], self.h.time_s[k]);
+        self.nearest(ClosestCall { margin, time_s, kind: DecisionKind::Impact, interface: 0 });
+        if self.mode(k) != Mode::Stick && !self.presses(k) {
+            let direction = Some(unit(is).unwrap_or_default());
+            let y_m = after.x[1];
+            let event = EventDirection { direction, unsure: 0.0, force_n: f64::INFINITY, y_m };
+            self.axes.event_directions.push(event);
         }
     }
 

@@ -87,22 +87,35 @@ pub(super) struct Forces<const N: usize> {
     pub(super) push: [Column<N>; 2],
 }
 
-/// A stop around the block: with `ρ = |s|`, `n = s/ρ` and `δ = ρ − d` it takes `(k δ + c ρ̇) n` where it is pressed.
+/// A stop around the block: with `ρ = |s|`, `n = s/ρ` and `δ = ρ − d` it takes `(k δ + c ρ̇) n` where it is pressed. One
+/// that does not give way takes what keeps `ρ̈ = 0`: `M1 (n·p + |w|²/ρ) n`.
 #[derive(Clone, Copy)]
 pub(super) struct Ring {
     pub(super) stiffness: f64,
     pub(super) damper: f64,
-    gap_m: f64,
+    pub(super) gap_m: f64,
+    pub(super) is_rigid: bool,
 }
 
 impl Ring {
     fn of(model: &Model) -> Option<Self> {
         let stop = model.stop()?;
-        let StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } = stop.kind else {
-            return None;
-        };
         let gap_m = stop.gap_towards(Direction::Positive)?;
-        Some(Self { stiffness: stiffness_n_per_m, damper: damper_n_s_per_m, gap_m })
+        let (stiffness, damper, is_rigid) = match stop.kind {
+            StopKind::Elastic { stiffness_n_per_m, damper_n_s_per_m } => {
+                (stiffness_n_per_m, damper_n_s_per_m, false)
+            }
+            StopKind::Rigid { .. } => (0.0, 0.0, true),
+        };
+        Some(Self { stiffness, damper, gap_m, is_rigid })
+    }
+
+    /// What one that does not give way takes over the mass of the block, under a push without it; a block at rest is not
+    /// held on it.
+    fn bears(&self, s: Pair, w: Pair, push: Pair) -> Pair {
+        let n = times(s, 1.0 / norm(s));
+        let bears = dot(n, push) + dot(w, w) / norm(s);
+        times(n, if w == [0.0; 2] { bears.max(0.0) } else { bears })
     }
 
     /// What it takes of a force on the block.
@@ -397,7 +410,7 @@ impl<'a> PlaneFrame<'a> {
 
     /// `μ_s N/M1`.
     pub(super) fn holding(&self, loads: &Loads) -> f64 {
-        self.fixed * self.law.pressed(loads[0].normal) / self.block_kg
+        self.most_held_n(loads[0].normal) / self.block_kg
     }
 
     /// `K q + C q̇`, floor by floor, and all that acts on the block.
@@ -418,9 +431,9 @@ impl<'a> PlaneFrame<'a> {
         let mut forces = Forces { base, spring: none, damper: none, stop: none, push: none };
         for at in 0..N {
             let own = [[x[0][at], x[1][at]], [v[0][at], v[1][at]]];
-            let stop = self.stopped(under.pressed, own);
-            let under = (pair(&under.a, at), under.normal[at]);
-            let [spring, damper, push] = self.driven((pair(&base, at), stop), own, under);
+            let loads = (pair(&under.a, at), under.normal[at]);
+            let [spring, damper, stop, push] =
+                self.driven((pair(&base, at), under.pressed), own, loads);
             for axis in 0..2 {
                 forces.spring[axis][at] = spring[axis];
                 forces.damper[axis][at] = damper[axis];
@@ -431,26 +444,31 @@ impl<'a> PlaneFrame<'a> {
         forces
     }
 
-    /// What the stop around the block takes.
+    /// What a stop around the block takes that gives way.
     #[inline(always)]
     pub(super) fn stopped(&self, pressed: bool, [s, w]: [Pair; 2]) -> Pair {
         self.stop.filter(|_| pressed).map_or([0.0; 2], |stop| stop.force(s, w))
     }
 
-    /// `K1 s + N s/R`, `C1 w` and `p` where the structure pulls and the stop takes a force.
+    /// `K1 s + N s/R`, `C1 w`, what the stop takes, and `p`, where the structure pulls.
     #[inline(always)]
     fn driven(
         &self,
-        (base, stop): (Pair, Pair),
+        (base, pressed): (Pair, bool),
         [s, w]: [Pair; 2],
         (a, normal): (Pair, f64),
-    ) -> [Pair; 3] {
+    ) -> [Pair; 4] {
+        let stop = self.stopped(pressed, [s, w]);
         let stiffness = self.spring + self.curvature_per_m * normal;
         let (spring, damper) = (s.map(|s| stiffness * s), w.map(|w| self.damper * w));
         let a = self.body.carried(a);
         let push =
             [0, 1].map(|k| (base[k] - spring[k] - damper[k] - stop[k]) / self.block_kg - a[k]);
-        [spring, damper, push]
+        let Some(ring) = self.stop.filter(|ring| pressed && ring.is_rigid) else {
+            return [spring, damper, stop, push];
+        };
+        let taken = ring.bears(s, w, push);
+        [spring, damper, times(taken, self.block_kg), [push[0] - taken[0], push[1] - taken[1]]]
     }
 
     /// `p` alone.
@@ -463,7 +481,7 @@ impl<'a> PlaneFrame<'a> {
         }
         let (under, own) =
             ((loads.map(|load| load.a), loads[0].normal), [[x[0], x[1]], [v[0], v[1]]]);
-        let [_, _, push] = self.driven((base, self.stopped(*pressed, own)), own, under);
+        let [_, _, _, push] = self.driven((base, *pressed), own, under);
         push
     }
 
@@ -500,6 +518,11 @@ impl<'a> PlaneFrame<'a> {
             -floors[i][0] / self.masses_kg[i] - self.ridden(i, a) - self.ridden(i, block)
         };
         block.into_iter().chain((0..floors.len()).map(of_part)).collect()
+    }
+
+    /// What friction holds under a normal force, in N.
+    pub(super) fn most_held_n(&self, normal: f64) -> f64 {
+        self.fixed * self.law.pressed(normal)
     }
 
     /// `C1 w² + q̇ᵀ C q̇`.

@@ -131,14 +131,28 @@ impl<'a> PlaneJudge<'a> {
         State { x, v, pressed: self.presses(k) }
     }
 
-    /// Whether the block presses the stop around it from a knot on.
+    /// Whether the block presses the stop around it from a knot on: at rest at one that does not give way it leans on it.
     pub(super) fn presses(&self, k: usize) -> bool {
-        matches!(self.contact(k), Contact::Pressed(_))
+        let rests = || {
+            self.mode(k) == Mode::Stick && self.law.bears_on_stop(norm(self.place(k))) != [false; 2]
+        };
+        matches!(self.contact(k), Contact::Pressed(_)) || rests()
+    }
+
+    /// The place and the speed of a block at a stop that does not give way are those of the law: it is within it, and on it
+    /// where it bears on it.
+    pub(super) fn off_wall(&mut self, k: usize, s: Pair, w: Pair) {
+        let Some(ring) = self.frame().stop.filter(|ring| ring.is_rigid) else { return };
+        let slack_m = self.instant_s * norm(w) + 8.0 * f64::EPSILON * self.figures.displacement[1];
+        let off_m = norm(s) - ring.gap_m;
+        let off_m = if self.presses(k) { off_m.abs() } else { off_m };
+        let f = &mut self.figures;
+        f.displacement[0] = larger(f.displacement[0], excess(off_m - slack_m));
     }
 
     /// By how much the contact at a knot breaks the law of the stop at a place with a velocity.
     pub(super) fn contact_excess(&self, k: usize, s: Pair, w: Pair) -> f64 {
-        let Some(stop) = self.frame().stop else { return 0.0 };
+        let Some(stop) = self.frame().stop.filter(|stop| !stop.is_rigid) else { return 0.0 };
         let slack_m = self.instant_s * norm(w) + 8.0 * f64::EPSILON * self.figures.displacement[1];
         let slack = [slack_m, stop.damper * self.velocity_rounding];
         self.law.contact_excess(self.contact(k), along_radius(s, w), slack)
@@ -168,10 +182,8 @@ impl<'a> PlaneJudge<'a> {
 
     /// What a block at rest is asked for, and the rounding of it. All slips are called positive: `T = −|p| M1`.
     pub(super) fn required_friction(&self, push: Pair, loads: &Loads) -> (StickDemand, f64) {
-        let (demand, high) = (
-            -self.frame().block_kg * norm(push),
-            self.frame().fixed * self.law.pressed(loads[0].normal),
-        );
+        let (demand, high) =
+            (-self.frame().block_kg * norm(push), self.frame().most_held_n(loads[0].normal));
         (StickDemand { demand, low: -high, high }, self.rounding(loads))
     }
 
@@ -234,8 +246,15 @@ impl<'a> PlaneJudge<'a> {
         }
         let pulled = [0, 1].map(|i| block[i] + frame.slope[i]);
         let inertia = frame.inertia(pulled);
-        let balance =
+        let mut balance =
             [0, 1].map(|i| inertia[i] - base[i] + spring[i] + damper[i] + stop[i] - friction[i]);
+        let wall = frame.stop.filter(|ring| ring.is_rigid && state.pressed);
+        if wall.is_some() && self.mode(k) == Mode::Stick {
+            // How a block at rest shares its push between friction and a stop is a convention: the stop does not pull.
+            let n = unit([state.x[0], state.x[1]]).unwrap_or_default();
+            let taken = (dot(n, stop) - dot(n, balance)).max(0.0) - dot(n, stop);
+            balance = [0, 1].map(|i| balance[i] + taken * n[i]);
+        }
         side.defect = larger(side.defect, excess(norm(balance) - follows_n));
         for vector in [inertia, base, spring, damper, stop, friction] {
             side.term = larger(side.term, norm(vector));
@@ -332,6 +351,7 @@ impl Directions for PlaneJudge<'_> {
             strain.push(self.frame().strain(&state.x));
             let broken = self.contact_excess(k, self.place(k), state.speed());
             self.figures.excess = larger(self.figures.excess, broken);
+            self.off_wall(k, self.place(k), state.speed());
         }
         self.take_sizes(&sizes);
         let varies = self.ground.has_vertical();
@@ -341,7 +361,7 @@ impl Directions for PlaneJudge<'_> {
     }
 
     fn decide(&mut self, changes: &[usize]) {
-        for &k in changes {
+        for &k in changes.iter().filter(|&&k| !self.strikes(k)).collect::<Vec<_>>() {
             let (all, off) = self.loads_of(k);
             let state = self.state(k);
             let found = self.weigh((k, 0), nearest(off), 1, |load, _| {
@@ -379,6 +399,10 @@ impl Directions for PlaneJudge<'_> {
     }
 
     fn at_same_time(&mut self, k: usize) -> bool {
+        if self.strikes(k) {
+            self.impact(k);
+            return true;
+        }
         for degree in 0..self.frame().degrees() {
             let before = self.stored(k - 1, degree);
             self.compare(k, degree, before, [0.0, self.velocity_rounding]);

@@ -108,6 +108,27 @@ impl Tracked<'_> {
         self.outputs.len() + 1
     }
 
+    /// On one line, as in one direction, friction takes what it can of the push of a block at rest against a stop that does
+    /// not give way; else the stop takes what pushes towards it.
+    #[inline(always)]
+    fn share<const N: usize>(
+        &self,
+        (friction, stop): (&mut [Column<N>; 2], &mut [Column<N>; 2]),
+        (acting, i): (&Acting<N>, usize),
+    ) {
+        let Some(line) = self.line.filter(|_| self.frame.stop.is_some_and(|ring| ring.is_rigid))
+        else {
+            return;
+        };
+        let taken_n = dot(pair(stop, i), line);
+        let most_n = self.frame.most_held_n(acting.under.normal[i]);
+        for axis in 0..2 {
+            let own = line[axis] * taken_n.clamp(-most_n, most_n);
+            friction[axis][i] -= own;
+            stop[axis][i] -= own;
+        }
+    }
+
     /// In a slip in directions, or in stick.
     #[inline(always)]
     fn vectors<const N: usize>(
@@ -127,7 +148,12 @@ impl Tracked<'_> {
             }
             along
         });
-        let [block, slider, friction] = acting.on_block(frame, directions.as_ref());
+        let rests = directions.is_none();
+        let [block, slider, mut friction] = acting.on_block(frame, directions.as_ref());
+        let mut stop = acting.forces.stop;
+        for i in (0..N).filter(|_| rests && acting.under.pressed) {
+            self.share((&mut friction, &mut stop), (acting, i));
+        }
         let of_part = |part: usize, i: usize| -acting.floors[part][i] / frame.masses_kg[part];
         // Displacement, velocity and acceleration of a point, along x and along y.
         let of_modes = |point: &PointOfModes| {
@@ -148,8 +174,7 @@ impl Tracked<'_> {
             self.outputs.each(
                 {
                     let forces = &acting.forces;
-                    let [base, stop] = [&forces.base[axis], &forces.stop[axis]];
-                    [&v[axis], &slider[axis], &friction[axis], base, stop]
+                    [&v[axis], &slider[axis], &friction[axis], &forces.base[axis], &stop[axis]]
                 },
                 (frame.slope[axis], &block[axis]),
                 |point| match &by_modes {

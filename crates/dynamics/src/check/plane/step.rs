@@ -404,11 +404,14 @@ impl<'a> Stepper<'a> {
         let under = self.under(&stretch);
         let kappa: [f64; NODES] = core::array::from_fn(|i| self.stiffness(under.normal[1 + i]));
         let stop = frame.stop.filter(|_| stretch.pressed);
+        let rigid = stop.filter(|stop| stop.is_rigid);
+        let per_s = 1.0 / stretch.step_s;
         let follows = frame.curvature_per_m > 0.0 || stop.is_some();
         let (mut last, mut newton) = (f64::INFINITY, None);
         for pass in 0..MOST_PASSES {
             let (mut change, mut size) = (0.0_f64, terms);
             let (mut bends, mut off) = ([[[[0.0; 2]; 2]; 2]; NODES], [0.0; UNKNOWNS]);
+            let mut own = [[[1.0, 0.0], [0.0, 1.0]]; NODES];
             let w = moved(&influence.of_w, &free[1], forces);
             let s = if follows { moved(&influence.of_s, &free[0], forces) } else { free[0] };
             for j in 0..NODES {
@@ -436,12 +439,31 @@ impl<'a> Stepper<'a> {
                     }
                 }
                 size = size.max(norm(force));
-                (0..2).for_each(|axis| off[2 * j + axis] = force[axis] - forces[axis][j]);
+                let mut left = [0, 1].map(|axis| force[axis] - forces[axis][j]);
+                if rigid.is_some() {
+                    // What is known across it is not the force but that it goes nowhere: n·w = 0.
+                    let n = times(s, 1.0 / norm(s));
+                    let along = |v: Pair| [0, 1].map(|i| v[i] - dot(n, v) * n[i]);
+                    let rows = |of: [Pair; 2]| {
+                        let columns = [0, 1].map(|b| along([of[0][b], of[1][b]]));
+                        [0, 1].map(|a| [columns[0][a], columns[1][a]])
+                    };
+                    own[j] = rows(own[j]);
+                    bends[j] = bends[j].map(rows);
+                    for (a, row) in bends[j][0].iter_mut().enumerate() {
+                        (0..2).for_each(|b| row[b] += per_s * n[a] * n[b]);
+                    }
+                    let across = per_s * dot(n, w);
+                    left = along(left);
+                    left = [0, 1].map(|i| left[i] - across * n[i]);
+                    size = size.max(per_s * r);
+                }
+                (0..2).for_each(|axis| off[2 * j + axis] = left[axis]);
             }
             // A matrix is kept as long as a pass gains two digits by it.
             let kept = match newton.take() {
                 Some(kept) => kept,
-                None => match Newton::new(influence, &bends) {
+                None => match Newton::new(influence, (&own, &bends)) {
                     Some(new) => new,
                     None => return false,
                 },
@@ -562,9 +584,12 @@ struct Newton {
 }
 
 impl Newton {
-    /// Of how the force bends at each node by `w` and by `s`; `None` where it is singular.
+    /// Of what is asked of the force itself at each node, and how it bends by `w` and by `s`; `None` where it is singular.
     #[inline(always)]
-    fn new(influence: &Influence, bends: &[[[[f64; 2]; 2]; 2]; NODES]) -> Option<Self> {
+    fn new(
+        influence: &Influence,
+        (own, bends): (&[[Pair; 2]; NODES], &[[[Pair; 2]; 2]; NODES]),
+    ) -> Option<Self> {
         let mut rows = [[0.0; UNKNOWNS]; UNKNOWNS];
         let (of_w, of_s) = (&influence.of_w, &influence.of_s);
         for (j, [by_w, by_s]) in bends.iter().enumerate() {
@@ -581,7 +606,7 @@ impl Newton {
                         row[i] += of(by_s, of_s);
                     }
                 }
-                row[2 * j + axis] += 1.0;
+                (0..2).for_each(|b| row[2 * j + b] += own[j][axis][b]);
             }
         }
         let mut pivots = [0; UNKNOWNS];

@@ -191,6 +191,9 @@ impl Plane<'_> {
     /// Follows a sample of a stick; whether it is certain that nothing happens in it, no peak either.
     fn passes(&mut self, ahead: &mut Ahead, sample: usize) -> bool {
         let (system, state) = (&self.system, &self.state);
+        if system.bears_on(state.contact).is_some() {
+            return false;
+        }
         let [from, to] = [sample, sample + 1].map(|i| {
             let normal_n = self.ground.normal_at(i);
             ([self.ground.acceleration[i], self.along_y.acceleration[i]], normal_n)

@@ -214,6 +214,8 @@ pub(super) struct Force {
     /// `w` without friction and stop, what the stop around the block takes over `M1`, and `N` at the nodes.
     pub(super) free: [AtNodes; 2],
     pub(super) stopped: [AtNodes; 2],
+    /// The way along a stop that does not give way, where the block bears on one.
+    pub(super) along_stop: Option<[AtNodes; 2]>,
     normal_n: AtNodes,
     /// `w` without friction from the start of the step on, by powers of the time over a unit, how far that is exact, and
     /// the part of it that is a step.
@@ -233,6 +235,7 @@ impl Force {
             sizes: none,
             free: [none; 2],
             stopped: [none; 2],
+            along_stop: None,
             normal_n: none,
             series: [ZERO; 2],
             unit_s: 1.0,
@@ -330,6 +333,29 @@ impl Force {
             }
         }
         self.w = w;
+    }
+
+    /// Takes directions that are given, and finds the speeds along them; whether all are ahead of rest.
+    pub(super) fn keep_to(
+        &mut self,
+        along: [AtNodes; 2],
+        law: &IsotropicFriction,
+        influence: &Influence,
+    ) -> bool {
+        self.u = along;
+        for _ in 0..MOST_PASSES {
+            self.sizes = core::array::from_fn(|j| law.at(self.speeds[j]) * self.normal_n[j]);
+            self.move_by(influence);
+            let before = self.speeds;
+            if !self.is_ahead() {
+                return false;
+            }
+            let stays = |(a, b): (&f64, &f64)| (a - b).abs() <= 4.0 * f64::EPSILON * b;
+            if law.is_constant() || before.iter().zip(&self.speeds).all(stays) {
+                return true;
+            }
+        }
+        false
     }
 
     /// Finds the directions; whether they are those of the velocities, ahead of rest.

@@ -757,6 +757,12 @@ fn friction_at(system: &System, series: &PlaneSeries, x: f64) -> [f64; 2] {
     let speed = norm(w);
     let normal_at_x_n = (normal_n + rate * (series.unit * x)).max(0.0);
     let size = system.kinetic_per_kg.force(speed, normal_at_x_n);
+    if let Some(sign) = series.along_stop {
+        // Near rest what is left of the velocity across the stop is rounding.
+        let [x, y] = series.s.each_ref().map(|s| value(s, x));
+        let per = sign * size / norm([x, y]);
+        return [-per * y, per * x];
+    }
     if [series.w[0][0], series.w[1][0]] == [0.0; 2] {
         let part = nodes().beside_start(x);
         let [of_x, of_y] = series.friction.each_ref();

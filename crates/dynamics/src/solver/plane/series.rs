@@ -41,6 +41,8 @@ pub(super) struct PlaneSeries {
     pub(super) shear: [Polynomial; 2],
     /// What the stop around the block takes over `M1`, which is given.
     pub(super) stopped: [Polynomial; 2],
+    /// The sign of the turn about the centre in which a block goes along a stop that does not give way.
+    pub(super) along_stop: Option<f64>,
     /// `η`, `η̇` and `g`, order by order.
     pub(super) eta: Vec<f64>,
     pub(super) rate: Vec<f64>,
@@ -97,6 +99,7 @@ impl PlaneSeries {
             tail: 0.0,
             shear: pair(),
             stopped: pair(),
+            along_stop: None,
             eta: list(),
             rate: list(),
             g: list(),

@@ -162,14 +162,16 @@ impl Plane<'_> {
         over: (Loads, f64),
     ) -> Tried {
         self.series.stopped = [ZERO; 2];
-        self.guess_stop(over.1);
+        self.guess_stop(over);
         if let Some(part) = self.go_freely(starts, over) {
             return Tried::Shorter(fitting(part));
         }
         self.influence.prepare(&self.system, (&over.0, over.1), &mut self.series);
         let w = self.state.w;
         let along = if at.speed > 0.0 { w.map(|w| w / at.speed) } else { self.direction };
-        if starts && norm(at.push) <= at.friction * (1.0 + AT_BOUND) {
+        if self.force.along_stop.is_some() {
+            self.force.speeds = [at.speed; NODES];
+        } else if starts && norm(at.push) <= at.friction * (1.0 + AT_BOUND) {
             // At its bound a block follows the push as that turns.
             let system = &self.system;
             self.force.guess_each(law, |change, stopped| {
@@ -233,7 +235,11 @@ impl Plane<'_> {
         };
         let mut longer = 0.0;
         for pass in 1..=most {
-            if !self.force.settle(law, &self.influence) {
+            let ahead = match self.force.along_stop {
+                Some(along) => self.force.keep_to(along, law, &self.influence),
+                None => self.force.settle(law, &self.influence),
+            };
+            if !ahead {
                 return Err(if starts { 0.3 } else { 0.5 });
             }
             let (friction, tail) = self.force.polynomial();
@@ -265,8 +271,10 @@ impl Plane<'_> {
             let rounding = if is_pressed { 4.0 * f64::EPSILON } else { 1e-16 };
             let fastest = self.force.speeds.iter().fold(at.speed, |most, r| most.max(*r));
             // From rest the velocity is a difference of what pushes and what holds.
-            let pushed =
-                if is_pressed { step_s * (norm(at.pull) + self.force.largest()) } else { 0.0 };
+            let pushed = match is_pressed {
+                true => step_s * (norm(at.pull) + self.force.largest() + self.borne_terms),
+                false => 0.0,
+            };
             let settled = off <= rounding * (fastest + pushed);
             if (!is_pressed || self.correct_stop()) && settled {
                 break;

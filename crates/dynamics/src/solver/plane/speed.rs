@@ -22,6 +22,11 @@ impl Least {
         self.is_falling = false;
     }
 
+    /// The speed jumps.
+    pub(super) fn drop_to(&mut self, before: f64, after: f64) {
+        self.is_falling |= after < before;
+    }
+
     fn note(&mut self, speed: f64) {
         self.speed = Some(self.speed.map_or(speed, |least| least.min(speed)));
     }

@@ -30,6 +30,7 @@ impl Plane<'_> {
         self.hold_stop();
         let unit_s = self.system.within_reach(left_s);
         self.expand(Kind::Stick, (loads, unit_s));
+        self.lean_on_stop();
     }
 
     /// `(μ_s N/M1)² − |p|²` in stick.
@@ -46,6 +47,12 @@ impl Plane<'_> {
 
     /// What of that is rounding at an instant of a stick, with `g` of that instant.
     pub(super) fn rounding_of_distance(&self, loads: &Loads, push: [f64; 2], g: &[f64]) -> f64 {
+        let (terms, holds) = (self.terms(loads, g), self.system.hold.radius(loads.normal[0]));
+        2.0 * ROUNDING * (holds * holds + norm(push).max(holds) * terms)
+    }
+
+    /// The size of the terms of the push at an instant, with `g` of that instant.
+    pub(super) fn terms(&self, loads: &Loads, g: &[f64]) -> f64 {
         let (system, mut terms) = (&self.system, 0.0);
         let [_, inertia] = system.stretches();
         let [stop, _] = system.stop_per_kg(self.state.contact);
@@ -56,8 +63,7 @@ impl Plane<'_> {
             let slider = (springs + stop * system.block_kg) * self.state.s[axis].abs();
             terms += (shear + slider) / system.block_kg + inertia * loads.table[axis][0].abs();
         }
-        let holds = system.hold.radius(loads.normal[0]);
-        2.0 * ROUNDING * (holds * holds + norm(push).max(holds) * terms)
+        terms
     }
 
     /// The first part of a stick at which it is released.
@@ -78,6 +84,10 @@ impl Plane<'_> {
     pub(super) fn slide(&mut self, stretch: &Stretch, at_s: f64) -> f64 {
         let left_s = stretch.to_s - at_s;
         let loads = self.loads(stretch, at_s);
+        if self.is_let_go(&loads) {
+            self.reached = Some(Contact::Free);
+            return at_s;
+        }
         let is_pressed = loads.normal[0] > 0.0 || loads.normal[1] > 0.0;
         let has_friction = is_pressed && !self.system.kinetic_per_kg.is_none();
         if !has_friction {
@@ -204,6 +214,7 @@ impl Plane<'_> {
     /// Moves to a part of the series, and keeps what it tells.
     fn move_part(&mut self, stretch: &Stretch, at_s: f64, part: f64) {
         self.series.state_at(part, &mut self.state);
+        self.keep_on_stop(part);
         self.look(stretch, at_s, part);
         self.scales.note(&self.state);
         if self.series.kind != Kind::Stick {

@@ -34,7 +34,7 @@ pub(super) struct Instant {
 impl Instant {
     /// Of a state under loads; leaves `g` behind.
     pub(super) fn new(system: &System, state: &State, loads: &Loads, g: &mut [f64]) -> Self {
-        let pull = state.pull(system, loads.normal[0], g);
+        let pull = state.pull(system, loads, g);
         let speed = norm(state.w);
         let law = &system.kinetic_per_kg;
         let friction = law.force(speed, loads.normal[0]);

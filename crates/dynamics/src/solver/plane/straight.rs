@@ -216,6 +216,9 @@ impl OnLine<'_> {
     fn turn_history(&self, h: &mut History) -> HistoryAlongY {
         h.mode.iter_mut().for_each(|mode| *mode = in_two_directions(*mode));
         h.contact.iter_mut().for_each(|contact| *contact = in_plane_contact(*contact));
+        if self.system.ring.is_some() {
+            h.contact.resize(h.time_s.len(), Contact::Free);
+        }
         let [x, y] = self.direction;
         let part = |list: &mut Vec<f64>| {
             let along_y = list.iter().map(|value| y * value + 0.0).collect();
@@ -341,7 +344,9 @@ impl OnLine<'_> {
 fn least_at_knots(h: &History, slope: impl Fn(usize) -> f64) -> Option<f64> {
     let turns = (1..h.len()).filter(|&k| {
         let slips = [k - 1, k].iter().all(|&k| h.mode[k] != Mode::Stick);
-        slips && h.time_s[k - 1] == h.time_s[k] && slope(k - 1) < 0.0 && slope(k) >= 0.0
+        let [before, after] = [k - 1, k].map(|k| h.sliding_velocity_m_per_s[k].abs());
+        let falls = slope(k - 1) < 0.0 || after < before;
+        slips && h.time_s[k - 1] == h.time_s[k] && falls && slope(k) >= 0.0
     });
     turns.map(|k| h.sliding_velocity_m_per_s[k].abs()).reduce(f64::min)
 }
@@ -378,7 +383,7 @@ pub(in crate::solver) fn solve(
     course.slider.memory.contact = contact;
     let mut walk = Walk::new((phase, course), (ground, [0.0, model.normal_n()]), (pulse, units));
     walk.go()?;
-    let Walk { phase, course, .. } = walk;
+    let Walk { phase, course, first_impact_s, .. } = walk;
     let contact_loss_s = contact_loss_s(ground.times_s, ground.normal);
     let of = |model: &Model, part: Part| {
         let slides = course.block.mode == SLIP;
@@ -399,10 +404,12 @@ pub(in crate::solver) fn solve(
         recorder.along_x
     });
     in_plane.events = phase.events;
+    let mut warnings = summary::warnings(model, &course.events, &contact_loss_s);
+    warnings.extend(first_impact_s.map(summary::impulses_excluded));
     Ok(Response {
         method: Method::Exact,
         demands,
-        warnings: summary::warnings(model, &course.events, &contact_loss_s),
+        warnings,
         events: course.events,
         history,
         contact_loss_s,

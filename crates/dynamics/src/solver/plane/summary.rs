@@ -49,7 +49,8 @@ pub(super) fn demands(
             let (events, sliding) = (&course.events, &course.block.sliding);
             let count = |kind| events.iter().filter(|event| event.kind == kind).count() as u64;
             let peak_force_n = plane.peak_stop_n;
-            let stop = StopDemands { peak_force_n, ..course.slider.stopping.demands };
+            let impact_count = count(EventKind::Impact);
+            let stop = StopDemands { peak_force_n, impact_count, ..course.slider.stopping.demands };
             let peak_m = peaks.sliding.norm;
             Demands {
                 peak_sliding_displacement_m: peak_m,

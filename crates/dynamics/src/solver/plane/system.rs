@@ -2,7 +2,7 @@
 
 use super::mass::{Mass, Matrix, times};
 use super::rows::Rows;
-use super::vector::{inner, norm};
+use super::vector::{apart, inner, norm};
 use crate::error::SolveError;
 use crate::linear;
 use crate::model::{Model, OscillatorInPlane, Structure};
@@ -74,6 +74,10 @@ pub(in crate::solver) struct System {
     /// Bound on the rates in rad/s.
     pub(in crate::solver) rate_rad_per_s: f64,
 }
+
+/// Friction of a block with a mass in each direction also pushes it towards the stop.
+const RIGID_WITH_MASS: &str = "a rigid stop under a structure whose left-out modes move with the block differently \
+                               along x and y";
 
 fn refused(what: &'static str) -> SolveError {
     SolveError::NotTaken { method: "two horizontal directions", what }
@@ -189,6 +193,9 @@ impl System {
             Rows::new(&rows.iter().enumerate().map(drift).collect::<Vec<_>>())
         });
         let (block_kg, mass, with_block) = mass_of_block(model, structure, modes.len());
+        if mass.is_some() && slider.ring.is_some_and(|ring| ring.restitution.is_some()) {
+            return Err(refused(RIGID_WITH_MASS));
+        }
         let masses_kg = model.point_masses_kg();
         let overturning =
             [0, 1].map(|k| moment_of_modes(model, structure, (k, &floors[k], &with_block)));
@@ -331,7 +338,14 @@ impl System {
         ((shear_n - self.damper_n_s_per_m * w) - springs) / self.block_kg
     }
 
-    /// What the stop around the block takes of a force on it, over `M1`.
+    /// The stop around the block, where that does not give way and the block bears on it.
+    pub(super) fn bears_on(&self, contact: Contact) -> Option<&Ring> {
+        let is_borne = matches!(contact, Contact::Pressed(_));
+        self.ring.as_ref().filter(|ring| is_borne && ring.restitution.is_some())
+    }
+
+    /// What the stop around the block takes of a force on it, over `M1`; of one that does not give way nothing, as
+    /// that hangs on all other forces.
     pub(super) fn stopped(&self, state: &State) -> [f64; 2] {
         match (&self.ring, state.contact) {
             (Some(ring), Contact::Pressed(_)) => {
@@ -509,14 +523,36 @@ impl State {
         }
     }
 
-    /// `P`, leaving `g` behind.
-    pub(super) fn pull(&self, system: &System, normal_n: f64, g: &mut [f64]) -> [f64; 2] {
+    /// `P` under loads, leaving `g` behind.
+    pub(super) fn pull(&self, system: &System, loads: &Loads, g: &mut [f64]) -> [f64; 2] {
+        let pull = self.pull_off_stop(system, loads, g);
+        if system.bears_on(self.contact).is_none() {
+            return pull;
+        }
+        apart(pull, self.borne(system, loads.push(system, pull)))
+    }
+
+    /// `P` without a stop that does not give way.
+    fn pull_off_stop(&self, system: &System, loads: &Loads, g: &mut [f64]) -> [f64; 2] {
         system.restoring(&self.eta, &self.rate, g);
         let (shear_n, stopped) = (system.shear_n(g), system.stopped(self));
         [0, 1].map(|k| {
-            let pressed = normal_n * self.s[k];
+            let pressed = loads.normal[0] * self.s[k];
             system.pull(shear_n[k], self.s[k], self.w[k], pressed) - stopped[k]
         })
+    }
+
+    /// What a stop that does not give way takes over `M1` where the block bears on it, from `p` without it.
+    fn borne(&self, system: &System, push: [f64; 2]) -> [f64; 2] {
+        let Some(ring) = system.bears_on(self.contact) else { return [0.0; 2] };
+        let per_m = ring.bears_per_kg(self.s, self.w, push) / norm(self.s);
+        self.s.map(|s| per_m * s)
+    }
+
+    /// The same under loads, leaving `g` behind.
+    pub(super) fn borne_under(&self, system: &System, loads: &Loads, g: &mut [f64]) -> [f64; 2] {
+        let pull = self.pull_off_stop(system, loads, g);
+        self.borne(system, loads.push(system, pull))
     }
 }
 

@@ -9,13 +9,13 @@ use crate::response::{EventKind, Mode};
 use crate::slider::{Direction, Hold};
 
 /// Impacts slower than this are neither listed nor counted, in m/s.
-const SLOWEST_IMPACT_M_PER_S: f64 = 1e-3;
+pub(in crate::solver) const SLOWEST_IMPACT_M_PER_S: f64 = 1e-3;
 
 /// Where a bounce is below the rounding of `s`: parts of the stop's distance, or of the largest `s` at a stop without one.
-const LEAST_BOUNCE: f64 = 4.0 * f64::EPSILON;
+pub(in crate::solver) const LEAST_BOUNCE: f64 = 4.0 * f64::EPSILON;
 
 /// Longest remaining time of infinitely many bounces, as a part of the whole time: it is left out.
-const LONGEST_REST: f64 = 8.0 * f64::EPSILON;
+pub(in crate::solver) const LONGEST_REST: f64 = 8.0 * f64::EPSILON;
 
 impl<'a> Line<'a> {
     /// Moves to a part of the series beside a stop that has just been struck; further away `s` itself has
