@@ -107,10 +107,13 @@ impl OnLine<'_> {
             sliding_displacement_y_m: y * event.sliding_displacement_m + 0.0,
         });
         let own = &response.demands;
-        let sign = match own.max_sliding_displacement_m >= -own.min_sliding_displacement_m {
-            true => 1.0,
-            false => -1.0,
-        };
+        // Between two walls a block goes as far both ways.
+        let at_peak = response.history.as_ref().and_then(|h| {
+            let k = h.time_s.iter().position(|t| *t == own.peak_sliding_displacement_time_s)?;
+            Some(h.sliding_displacement_m[k]).filter(|s| *s != 0.0)
+        });
+        let farthest = own.max_sliding_displacement_m + own.min_sliding_displacement_m;
+        let sign = if farthest == 0.0 { at_peak.unwrap_or(1.0) } else { farthest }.signum();
         let mut in_plane = InPlane {
             axes: [0, 1].map(|axis| self.along_axis(own, axis)),
             peak_sliding_displacement_direction_rad: libm::atan2(sign * y, sign * x),
@@ -260,8 +263,13 @@ impl OnLine<'_> {
     /// The least margin of the decisions at stops.
     fn closest_stop(&self, h: &History) -> Option<f64> {
         let (mut interval, mut closest) = (0, None);
-        let stops =
-            (1..h.len()).filter(|&k| h.mode[k] == Mode::Stick && h.mode[k - 1] != Mode::Stick);
+        // What comes to rest at a rigid stop does so by what it strikes.
+        let strikes = |k: usize| {
+            h.time_s[k] == h.time_s[k - 1]
+                && h.sliding_velocity_m_per_s[k] != h.sliding_velocity_m_per_s[k - 1]
+        };
+        let stops = (1..h.len())
+            .filter(|&k| h.mode[k] == Mode::Stick && h.mode[k - 1] != Mode::Stick && !strikes(k));
         for k in stops {
             let at_s = self.place(&mut interval, h.time_s[k]);
             let normal_n = self.ground.stretch(interval, at_s, at_s).normal_at(at_s);
