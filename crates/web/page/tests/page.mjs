@@ -1,7 +1,6 @@
 // The page as a person uses it: `node tests/page.mjs FOLDER [NAME]`. The last line counts.
 
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
 import { mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join, resolve } from "node:path";
@@ -12,7 +11,7 @@ import { figures } from "./figures.mjs";
 import { field, setField, slider } from "./fields.mjs";
 import { minute } from "./minute.mjs";
 import { scenes } from "./scenes.mjs";
-import { browser, drop, headline, host, message, open, settled, temporary } from "./harness.mjs";
+import { browser, drop, headline, host, message, open, ran, settled, temporary } from "./harness.mjs";
 import { loading } from "./loading.mjs";
 import { report } from "./report.mjs";
 import { runs } from "./runs.mjs";
@@ -26,6 +25,9 @@ const site = await host(folder);
 let chromium = await browser();
 const shots = join(folder, "../web-pictures");
 mkdirSync(shots, { recursive: true });
+
+/** Tests whose times are told at the end. */
+const SLOWEST = 12;
 
 const tests = [];
 const test = (name, run) => tests.push([name, run]);
@@ -128,7 +130,7 @@ test("history, summary and events are those of the command, digit by digit", () 
     try {
       for (const name of ["taft", "el-centro", "frame-pendulum"]) {
         const model = join(root, "examples", `${name}.toml`);
-        execFileSync(command, ["run", model, "-q", "--out", out.folder], { stdio: ["ignore", "ignore", "inherit"] });
+        await ran(command, ["run", model, "-q", "--out", out.folder]);
         await drop(page, [`${name}.toml`, readFileSync(model)]);
         await page.evaluate(() => globalThis.dropped);
         await settled(page);
@@ -402,7 +404,7 @@ test("two components: the way of the block from above, turned by a slider, with 
     if (command) {
       const out = temporary();
       try {
-        execFileSync(command, ["run", join(root, "examples/taft-two-directions.toml"), "--set", "motion.rotate=45 deg", "-q", "--out", out.folder], { stdio: ["ignore", "ignore", "inherit"] });
+        await ran(command, ["run", join(root, "examples/taft-two-directions.toml"), "--set", "motion.rotate=45 deg", "-q", "--out", out.folder]);
         const here = await page.evaluate(() => globalThis.slipstick.desk.helper.call("file", "history.csv", globalThis.slipstick.text, ""));
         assert.ok(here === readFileSync(join(out.folder, "history.csv"), "utf8"), "history.csv differs from the command's");
       } finally {
@@ -442,7 +444,7 @@ test("a ZIP has model and records, and the command makes the same bytes of them"
         writeFileSync(join(out.folder, name), bytes);
       }
       const [, ...words] = readFileSync(join(out.folder, "command.txt"), "utf8").trim().split(" ");
-      execFileSync(command, [...words, "-q"], { cwd: out.folder, stdio: ["ignore", "ignore", "inherit"] });
+      await ran(command, [...words, "-q"], { cwd: out.folder });
       for (const name of ["summary.json", "history.csv", "events.csv"]) {
         assert.equal(readFileSync(join(out.folder, "out", name), "utf8"), readFileSync(join(out.folder, "page", name), "utf8"), name);
       }
@@ -838,11 +840,14 @@ test("pictures at three widths, in light and dark", async () => {
 });
 
 let [passed, failed, skipped] = [0, 0, 0];
+/** How long each test took, in s. */
+const took = [];
 const left = tests.filter(([name]) => !only || name.includes(only));
 /** Runs tests, one after the other, until none is left. */
 async function some() {
   for (let next = left.shift(); next; next = left.shift()) {
     const [name, run] = next;
+    const start = performance.now();
     try {
       if (!chromium.isConnected()) chromium = await browser();
       let timer;
@@ -858,11 +863,15 @@ async function some() {
       failed++;
       console.log(`  FAILED: ${name}\n    ${String(error.stack ?? error).split("\n").slice(0, 14).join("\n    ")}`);
     }
+    took.push([(performance.now() - start) / 1000, name]);
   }
 }
 // Two at a time: a page keeps one processor busy, and not all the time.
 await Promise.all([some(), some()]);
 await chromium.close();
 site.close();
+took.sort(([a], [b]) => b - a);
+console.log("  the longest:");
+for (const [seconds, name] of took.slice(0, SLOWEST)) console.log(`    ${seconds.toFixed(1).padStart(5)} s  ${name}`);
 console.log(`${passed} passed, ${failed} failed, ${skipped} skipped`);
 process.exitCode = failed > 0 ? 1 : 0;

@@ -1,10 +1,9 @@
 // The guided scenes: their figures are the command's, their words are true of them.
 
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { settled, temporary } from "./harness.mjs";
+import { ran, settled, temporary } from "./harness.mjs";
 
 /** What the words of an answer claim of the figures of its runs. */
 const CLAIMS = {
@@ -69,7 +68,7 @@ export function scenes(test, on, site) {
             for (const [name, text, set] of runs.filter((_, i) => runs.length < 6 || i % 6 === 0)) {
               writeFileSync(join(out.folder, "model.toml"), text);
               const words = ["run", "model.toml", "--json", "-q", ...set.flatMap(([path, value]) => ["--set", `${path}=${value}`])];
-              const there = JSON.parse(execFileSync(command, words, { cwd: out.folder, stdio: ["ignore", "pipe", "ignore"] }));
+              const there = JSON.parse(await ran(command, words, { cwd: out.folder }));
               assert.equal(found[name].peak_m, there.peak_sliding_displacement_m, `${id}, ${name}`);
               assert.equal(found[name].residual_m, there.residual_sliding_displacement_m, `${id}, ${name}`);
               assert.equal(found[name].block_m_per_s2, there.block.peak_acceleration_m_per_s2, `${id}, ${name}`);
