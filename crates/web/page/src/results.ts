@@ -1,6 +1,7 @@
 /** Tables of results beside the pictures. */
 
 import { digits, fill, h } from "./dom";
+import type { Answered } from "./desk";
 import type { Answer, Judgement, State, Warning } from "./types";
 
 /** What the figures of the check say. */
@@ -142,17 +143,17 @@ const LOADING = {
 export function loading(into: HTMLElement, shown: keyof typeof LOADING): void {
   if (into.dataset.state === shown) return;
   into.dataset.state = shown;
-  into.className = "certificate";
+  into.classList.remove("holds", "fails");
   fill(into, h("strong", {}, "Loading"), h("span", {}, LOADING[shown]));
 }
 
-/** The certificate of a judged answer; that there is none yet, without one. `last`: of the last good state. */
-export function certificate(into: HTMLElement, judgement: Judgement | undefined, last = false): void {
+/** The certificate of an answer; that there is none yet, or none at all, where `check` checks it. `last`: what is wanted now has no answer, and it is of the one before. */
+export function certificate(into: HTMLElement, { judgement, unchecked }: Answered, last: boolean, check: () => void): void {
   const say = (kind: string, lead: string, ...more: (Node | string)[]) => {
-    into.className = `certificate ${kind}`;
+    for (const one of ["holds", "fails"]) into.classList.toggle(one, one === kind);
     fill(into, h("strong", {}, lead), ...more);
   };
-  if (!judgement) {
+  if (!judgement && unchecked === undefined) {
     if (into.dataset.state !== "waiting") say("", "Not yet checked", h("span", {}, "It is checked as soon as the values rest."));
     into.dataset.state = "waiting";
     return;
@@ -160,6 +161,10 @@ export function certificate(into: HTMLElement, judgement: Judgement | undefined,
   into.dataset.state = "judged";
   if (last) {
     say("", "Of the last good state", h("span", {}, "What stands in the model now cannot be analysed."));
+    return;
+  }
+  if (!judgement) {
+    say("", "Not checked", h("span", {}, `${unchecked}.`.replace(/^./, (first) => first.toUpperCase())), h("span", { class: "actions" }, h("button", { type: "button", onclick: check }, "Check it")));
     return;
   }
   const { holds, bound, figures, closestCall, iterations } = judgement.certificate;

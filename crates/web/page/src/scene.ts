@@ -79,8 +79,8 @@ export interface Part {
 /** Height of a storey, and size of the block, where the model gives none. */
 const STOREY_M = 3;
 
-/** Room below the table, and above the roof, in px. */
-const BELOW = 52;
+/** Room below the table, where the gauge is, and above the roof, in px. */
+const BELOW = 66;
 const ABOVE = 46;
 
 /** Length of the arrow of the largest friction force, in px. */
@@ -106,6 +106,23 @@ function largestOf(answer: Answer): Largest {
   largest.set(answer, found);
   return found;
 }
+
+/** Coefficients of static and kinetic friction on the block towards −x and +x; none where a law has no one value. */
+function limitsOf({ inputs }: State): { still?: readonly [number, number]; kinetic?: readonly [number, number] } {
+  const value = (path: string) => inputs.find((input) => input.path === path)?.value ?? undefined;
+  const turn = value("slider.asymmetry") ?? 0;
+  // Friction against sliding towards +x pulls towards −x.
+  const of = (kind: string): readonly [number, number] | undefined => {
+    const both = value(`slider.${kind}_friction`);
+    if (both !== undefined) return [both * (1 + turn), both * (1 - turn)];
+    const [positive, negative] = [value(`slider.${kind}_friction.positive`), value(`slider.${kind}_friction.negative`)];
+    return positive !== undefined && negative !== undefined ? [positive, negative] : undefined;
+  };
+  return { still: of("static"), kinetic: of("kinetic") };
+}
+
+/** A ratio with three digits. */
+const shortly = (ratio: number) => String(Number(ratio.toPrecision(3)));
 
 /** Sizes of a building in m: what the model gives, and what it does not. */
 function sizes({ structure }: State): { heights: number[]; total: number; width: number; height: number } {
@@ -223,6 +240,7 @@ export class Scene {
     }
 
     this.friction(frame, knot, blockX, bw, bh);
+    this.gauge(frame, knot, mode, width, height);
     this.scaleBar(c, width, k, units.length, seen);
     this.words(frame, s, mode);
   }
@@ -439,6 +457,47 @@ export class Scene {
     c.fill();
     this.label(c, "friction", from, y - 8, sign > 0 ? "left" : "right", this.colours.slide);
     this.part("Friction", "The force of friction on the block. It holds the block while it sticks, and acts against its motion while it slides. The arrow is longest where the force is largest in this motion.", Math.min(from, to), y - 20, Math.abs(to - from), 26);
+  }
+
+  /** The force of friction over the weight, between what static friction can give; where it comes to that, the block slides, and friction falls to its kinetic level. */
+  private gauge({ c, answer }: Frame, knot: number, mode: number, width: number, height: number): void {
+    const { still, kinetic } = limitsOf(answer.state);
+    const weight = answer.state.structure.weight_n;
+    if (!still || !(weight > 0)) return;
+    const colour = this.colours;
+    const plane = answer.sy.length > 0;
+    const along = -(answer.friction[knot] ?? 0) / weight;
+    const used = plane ? Math.hypot(along, (answer.frictionY[knot] ?? 0) / weight) : along;
+    const most = Math.max(...still, ...(kinetic ?? []), Math.abs(used)) * 1.08;
+    const half = Math.min(170, 0.36 * width);
+    const [middle, y] = [width / 2, height - 12];
+    const x = (ratio: number) => middle + (ratio / most) * half;
+    c.fillStyle = colour.panel!;
+    c.strokeStyle = colour.line!;
+    c.lineWidth = 1;
+    c.fillRect(middle - half - 6, y - 7, 2 * half + 12, 14);
+    c.strokeRect(middle - half - 6, y - 7, 2 * half + 12, 14);
+    // From nothing to what is used.
+    c.fillStyle = mode === 0 ? colour.stick! : colour.slide!;
+    c.fillRect(Math.min(middle, x(used)), y - 4, Math.abs(x(used) - middle), 8);
+    const mark = (ratio: number, size: number, stroke: string, lineWidth: number) => {
+      c.strokeStyle = stroke;
+      c.lineWidth = lineWidth;
+      c.beginPath();
+      c.moveTo(x(ratio), y - size);
+      c.lineTo(x(ratio), y + size);
+      c.stroke();
+    };
+    mark(0, 4, colour.quiet!, 1);
+    for (const [ratios, size, stroke, wide] of [[kinetic, 5, colour.slide!, 1.5], [still, 8, colour.ink!, 2.5]] as const) {
+      if (!ratios) continue;
+      mark(plane ? ratios[0] : -ratios[0], size, stroke, wide);
+      mark(ratios[1], size, stroke, wide);
+    }
+    const level = (word: string, [a, b]: readonly [number, number]) => `${word} ${plane || a === b ? `${plane ? "" : "± "}${shortly(b)}` : `−${shortly(a)}, +${shortly(b)}`}`;
+    const words = ["friction over weight", level("static", still), ...(kinetic ? [level("kinetic", kinetic)] : [])];
+    this.label(c, words.join(" · "), middle, y - 12, "center");
+    this.part("Friction over weight", "The bar is the force of friction on the block, over its weight. The long marks are static friction: up to there the block sticks. Where the bar comes to one, the block slides, and friction has the kinetic level, at the short marks.", middle - half - 6, y - 24, 2 * half + 12, 32);
   }
 
   private spring(c: CanvasRenderingContext2D, from: number, to: number, y: number): void {

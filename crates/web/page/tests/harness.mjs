@@ -76,14 +76,14 @@ export async function open(browser, url, options = {}) {
   return { page, context, said, outside, close: () => context.close() };
 }
 
-/** Whether a page is at rest; `tell`: what of it does not hold. */
-const rest = (tell) => {
+/** Whether a page is at rest; `tell`: what of it does not hold. `any`: where what is wanted has no answer, too. */
+export const rest = ([tell, any]) => {
   const app = globalThis.slipstick;
   const holds = {
     "it has drawn an answer": app?.updates > 0,
     "its worker is idle": app?.desk.helper.idle,
-    "no setting is pending": app?.pending.length === 0,
-    "what it shows is judged": app?.judgement !== undefined,
+    "nothing that is wanted is on its way": app?.desk.rests,
+    "what it shows is judged": any || app?.judgement !== undefined,
     "all that it knows is drawn": app?.drawn,
   };
   const left = Object.keys(holds).filter((what) => !holds[what]);
@@ -93,10 +93,10 @@ const rest = (tell) => {
 /** Waits until what is shown is judged. It asks by a clock: a page that draws no frames would not be asked by them. */
 export async function settled(page, timeout = 60_000) {
   try {
-    await page.waitForFunction(rest, false, { timeout, polling: 50 });
+    await page.waitForFunction(rest, [false, false], { timeout, polling: 50 });
   } catch (error) {
     if (error.name !== "TimeoutError") throw error;
-    const left = await page.evaluate(rest, true).catch((silent) => [`it answers (${silent.message})`]);
+    const left = await page.evaluate(rest, [true, false]).catch((silent) => [`it answers (${silent.message})`]);
     const said = await page.locator(".note-bar:visible").allInnerTexts().catch(() => []);
     throw new Error(`the page is not at rest after ${timeout / 1000} s: it does not hold that ${left.join(", that ") || "it was at rest in time"}; it says ${JSON.stringify(said)}`, { cause: error });
   }

@@ -26,7 +26,7 @@ export function minute(test, on) {
     on(async (page) => {
       assert.match(await page.locator(".welcome").innerText(), /^[^.]+\.$/, "one sentence");
       const names = await seen(page, 40);
-      for (const name of ["Shaking table", "Block", "Dish", "Gap", "Start", "Friction", "How far it has slid"]) assert.ok(names.has(name), `${name} of ${[...names]}`);
+      for (const name of ["Shaking table", "Block", "Dish", "Gap", "Start", "Friction", "Friction over weight", "How far it has slid"]) assert.ok(names.has(name), `${name} of ${[...names]}`);
       const peak = await page.evaluate(() => globalThis.slipstick.answer.state.headline.peakTime_s);
       const { parts } = await at(page, peak);
       const [left, top, width, height] = parts.find(({ name }) => name === "Block").box;

@@ -15,6 +15,7 @@ import { browser, drop, headline, host, message, open, ran, settled, temporary }
 import { loading } from "./loading.mjs";
 import { report } from "./report.mjs";
 import { runs } from "./runs.mjs";
+import { state } from "./state.mjs";
 import { whole } from "./whole.mjs";
 
 const folder = resolve(process.argv[2]);
@@ -135,7 +136,7 @@ test("history, summary and events are those of the command, digit by digit", () 
         await page.evaluate(() => globalThis.dropped);
         await settled(page);
         for (const file of ["history.csv", "events.csv", "summary.json"]) {
-          const here = await page.evaluate((file) => globalThis.slipstick.desk.helper.call("file", file, globalThis.slipstick.text, ""), file);
+          const here = await page.evaluate((file) => globalThis.slipstick.desk.files([file], () => "").then(({ files }) => files[0]), file);
           const there = readFileSync(join(out.folder, file), "utf8");
           assert.ok(here === there, `${name}: ${file} differs from the command's`);
         }
@@ -405,7 +406,7 @@ test("two components: the way of the block from above, turned by a slider, with 
       const out = temporary();
       try {
         await ran(command, ["run", join(root, "examples/taft-two-directions.toml"), "--set", "motion.rotate=45 deg", "-q", "--out", out.folder]);
-        const here = await page.evaluate(() => globalThis.slipstick.desk.helper.call("file", "history.csv", globalThis.slipstick.text, ""));
+        const here = await page.evaluate(() => globalThis.slipstick.desk.files(["history.csv"], () => "").then(({ files }) => files[0]));
         assert.ok(here === readFileSync(join(out.folder, "history.csv"), "utf8"), "history.csv differs from the command's");
       } finally {
         out.remove();
@@ -512,16 +513,89 @@ test("an address asks for a record of one's own, by name and hash", () =>
     const other = await context.newPage();
     await other.goto(page.url());
     await other.locator(".note-bar:not(.busy)").waitFor();
-    assert.match(await message(other), /motion\.record: expected the file of this record.*none named own\.AT2/);
+    assert.match(await message(other), /^This link needs the file own\.AT2: choose it, or drop it on the page\./);
     await drop(other, ["own.AT2", own.replace(/1/, "2")]);
     await other.evaluate(() => globalThis.dropped);
     assert.match(await message(other), /own\.AT2: expected the file of the address, with the SHA-256/);
-    await drop(other, ["own.AT2", own]);
+    // By its hash it is known under another name.
+    await drop(other, ["own (1).AT2", own]);
     await other.evaluate(() => globalThis.dropped);
     await settled(other);
     assert.deepEqual(await headline(other), shown);
     assert.equal(await other.locator("#model-text").inputValue(), await page.locator("#model-text").inputValue());
     await other.close();
+  }));
+
+test("a model asks for its record, which is chosen by a button and read as the model says", () =>
+  on(async (page) => {
+    const model = readFileSync(join(root, "examples/taft.toml"), "utf8").replace("records/taft-111.txt", "records/ARL360.at2").replace(/^scale_to.*$/m, 'scale_to = "0.2 g"');
+    await drop(page, ["model.toml", model]);
+    await page.evaluate(() => globalThis.dropped);
+    await page.getByRole("button", { name: "Choose ARL360.at2…" }).waitFor();
+    assert.match(await message(page), /^This model needs the file ARL360\.at2: choose it/);
+    assert.ok(await page.locator(".stage.behind").count(), "what is shown is of the model before");
+    const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.getByRole("button", { name: "Choose ARL360.at2…" }).click()]);
+    const numbers = readFileSync(join(root, "examples/records/taft-021.txt"));
+    await chooser.setFiles([{ name: "downloaded.txt", mimeType: "text/plain", buffer: numbers }]);
+    await settled(page);
+    assert.match(await page.locator("#model-text").inputValue(), /record\s*= "records\/ARL360\.at2"\n[^]*scale_to = "0\.2 g"/);
+    assert.equal(await page.locator(".behind").count(), 0);
+  }));
+
+test("a motion that is vertical alone is asked about; of several channels those of acceleration are offered, a horizontal one first", () =>
+  on(async (page) => {
+    const dialog = page.locator("dialog");
+    const text = await page.locator("#model-text").inputValue();
+    const dropped = async (name) => drop(page, [name, readFileSync(join(root, "data/records", name))]);
+    await dropped("kiknet.UD2");
+    await dialog.getByText("is vertical").waitFor();
+    await dialog.getByRole("button", { name: "Keep it beside" }).click();
+    await page.evaluate(() => globalThis.dropped);
+    assert.equal(await page.locator("#model-text").inputValue(), text, "the table moves as before");
+    assert.match(await page.locator(".records").innerText(), /kiknet\.UD2/);
+    await dropped("kiknet.UD2");
+    await dialog.getByRole("button", { name: "Use it" }).click();
+    await page.evaluate(() => globalThis.dropped);
+    await settled(page);
+    assert.match(await page.locator("#model-text").inputValue(), /record = "kiknet\.UD2"/);
+    await dropped("geonet.V2A");
+    await dialog.locator("select[name=channel]").waitFor();
+    const offered = await dialog.locator("select[name=channel] option").allTextContents();
+    assert.ok(offered.length > 0 && offered.every((one) => /acceleration/.test(one)), String(offered));
+    const chosen = await dialog.locator("select[name=channel]").evaluate((select) => select.selectedOptions[0].textContent);
+    assert.ok(!/vertical/.test(chosen), chosen);
+    await dialog.getByRole("button", { name: "Leave it" }).click();
+  }));
+
+test("two files of one name that come together are two records", () =>
+  on(async (page) => {
+    await drop(page, ["x.csv", sine(1)], ["x.csv", sine(2)]);
+    await page.evaluate(() => globalThis.dropped);
+    const rows = page.locator("#panel-suite .workbench tbody tr");
+    await rows.nth(4).waitFor();
+    assert.deepEqual(await rows.locator("th").allInnerTexts().then((all) => all.slice(-2)), ["x.csv", "x (2).csv"]);
+  }));
+
+test("a check that is stopped leaves figures, text and link of one model, and is made when asked for", () =>
+  on(async (page) => {
+    await page.evaluate(() => {
+      const { desk } = globalThis.slipstick;
+      // As "Start another" does, before the check is made.
+      const hear = desk.onanswer;
+      desk.onanswer = (answered) => {
+        hear(answered);
+        desk.onanswer = hear;
+        desk.helper.end();
+        void desk.helper.start();
+      };
+      desk.set([["slider.kinetic_friction", "0.031"]]);
+    });
+    await page.locator(".results .certificate", { hasText: "Not checked" }).waitFor();
+    assert.equal(await page.locator(".stage.behind").count(), 0);
+    await page.getByRole("button", { name: "Check it" }).click();
+    await settled(page);
+    assert.match(await page.locator(".results .certificate").innerText(), /^Computed right/);
+    assert.match(await page.locator("#model-text").inputValue(), /kinetic_friction = 0\.031/);
   }));
 
 test("a silent worker is shown as busy and can be replaced", () =>
@@ -531,6 +605,7 @@ test("a silent worker is shown as busy and can be replaced", () =>
     await page.locator(".note-bar.busy").waitFor({ timeout: 4000 });
     assert.deepEqual(await headline(page), before);
     await page.getByRole("button", { name: "Start another" }).click();
+    assert.equal(await page.locator(".behind").count(), 0, "what is shown stays, and is what is wanted");
     await setField(page, "Kinetic friction", "0.04");
     await settled(page);
     assert.notDeepEqual(await headline(page), before);
@@ -613,7 +688,7 @@ test("fragility takes the bounds of friction apart", () =>
 
 test("contents are added key by key, and the text says them", () =>
   on(async (page) => {
-    await page.evaluate(() => globalThis.slipstick.set([["contents.1.floor", "1"], ["contents.1.mass", "20 kg"], ["contents.1.static_friction", "0.3"], ["contents.1.kinetic_friction", "0.25"]]));
+    await page.evaluate(() => globalThis.slipstick.desk.set([["contents.1.floor", "1"], ["contents.1.mass", "20 kg"], ["contents.1.static_friction", "0.3"], ["contents.1.kinetic_friction", "0.25"]]));
     await settled(page);
     const text = await page.locator("#model-text").inputValue();
     assert.match(text, /\[\[contents\]\]\nfloor = 1\nmass = "20 kg"\nstatic_friction = 0.3\nkinetic_friction = 0.25\n/);
@@ -733,6 +808,7 @@ for (const [scheme, forcedColors] of [["light", "none"], ["dark", "none"], ["lig
 }
 
 loading(test, on, site);
+state(test, on);
 whole(test, on, root);
 report(test, () => chromium, axe, root);
 runs(test, on);

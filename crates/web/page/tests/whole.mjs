@@ -1,7 +1,7 @@
 // What leaves the page is what the command makes of the same: figures, reports, whole analyses.
 
 import assert from "node:assert/strict";
-import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { unzipSync } from "fflate";
 import { drop, ran, settled, temporary } from "./harness.mjs";
@@ -32,7 +32,8 @@ async function repeated(got, command, folder) {
     mkdirSync(dirname(join(folder, name)), { recursive: true });
     writeFileSync(join(folder, name), bytes);
   }
-  for (const line of readFileSync(join(folder, "command.txt"), "utf8").trim().split("\n")) {
+  const said = ["command.txt", "page/command.txt"].map((name) => join(folder, name)).find(existsSync);
+  for (const line of readFileSync(said, "utf8").trim().split("\n")) {
     const words = line.split(" ").slice(1).join(" ");
     // The shell reads the quotes.
     await ran("/bin/sh", ["-c", `"$SLIPSTICK" ${words}`], { cwd: folder, env: { ...process.env, SLIPSTICK: command } });
@@ -177,6 +178,29 @@ export function whole(test, on, root) {
         }
       }, { acceptDownloads: true }));
   }
+
+  test("the ZIP of study runs as it stands, and tells the same of the same files, warnings among it", () =>
+    on(async (page) => {
+      if (!command) return skipped;
+      await page.locator("#tab-study").click();
+      const panel = page.locator("#panel-study");
+      const plan = panel.locator("textarea");
+      await plan.fill((await plan.inputValue()).replace("count  = 64", "count  = 8"));
+      await panel.locator("button.main").click();
+      await panel.locator(".sheet").waitFor({ timeout: 90000 });
+      const [got] = await Promise.all([page.waitForEvent("download"), panel.getByRole("button", { name: "Everything (ZIP)" }).click()]);
+      const out = temporary();
+      try {
+        await repeated(got, command, out.folder);
+        const report = readdirSync(join(out.folder, "out")).find((name) => name.endsWith(".html"));
+        // Certificates of some runs only the command makes.
+        const told = (file) => readFileSync(file, "utf8").replace(/<li>(Certificates: |[^<]* run again alone)[^<]*<\/li>/g, "");
+        assert.equal(told(join(out.folder, "page/report.html")), told(join(out.folder, "out", report)));
+        assert.match(told(join(out.folder, "page/report.html")), /gave the warning/);
+      } finally {
+        out.remove();
+      }
+    }, { acceptDownloads: true }));
 
   test("a plan has as many runs as the analysis that the page shows, or says why there is none", () =>
     on(async (page) => {
