@@ -249,7 +249,8 @@ export class Intake {
       });
       form.addEventListener("submit", (event) => {
         event.preventDefault();
-        this.page.desk.helper.call("inspect", name, units.value, dt.value).then(
+        dialog.setAttribute("aria-busy", "true");
+        this.page.desk.helper.call("inspect", name, units.value, dt.value).finally(() => dialog.removeAttribute("aria-busy")).then(
           (read) => {
             try {
               refuseLong(name, read);

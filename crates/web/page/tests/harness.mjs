@@ -83,7 +83,7 @@ export const rest = ([tell, any]) => {
     "it has drawn an answer": app?.updates > 0,
     "its worker is idle": app?.desk.helper.idle,
     "nothing that is wanted is on its way": app?.desk.rests,
-    "what it shows is judged": any || app?.judgement !== undefined,
+    "what is wanted is judged": any || (app?.judgement !== undefined && !app.desk.refused),
     "all that it knows is drawn": app?.drawn,
   };
   const left = Object.keys(holds).filter((what) => !holds[what]);

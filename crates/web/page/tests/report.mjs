@@ -11,7 +11,7 @@ const PAIRS = 11;
 const PAGES = 12;
 
 /** Samples of each record: its strongest part. A report is as long on fewer of them. */
-const SAMPLES = [300, 1500];
+const SAMPLES = [300, 950];
 
 /** Writes the report of a building on many pairs under two hazards, which of the one pair at hand are copies. */
 async function written(command, root, folder) {
