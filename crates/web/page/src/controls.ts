@@ -54,6 +54,7 @@ const SPECS: Record<string, Spec> = {
   "motion.sweep.amplitude": { label: "Amplitude", min: 0.1, max: 15 },
   "motion.pulse.amplitude": { label: "Amplitude", min: 0.1, max: 15 },
   "motion.pulse.duration": { label: "Duration of the pulse", min: 0.05, max: 5, log: true },
+  "isolator.period": { label: "Period of the isolators", min: 0.5, max: 8 },
   "analysis.tail": { label: "Free vibration after it", min: 0, max: 30 },
 };
 

@@ -19,6 +19,8 @@ interface Figure {
   text: string;
   unit: string;
   over?: boolean;
+  /** It has either sign. */
+  signed?: boolean;
 }
 
 /** Share of the peak below which a residual is that of rounding. */
@@ -32,18 +34,18 @@ function figures({ headline, units, structure }: State): Figure[] {
   return [
     length("Peak sliding", headline.peak_m),
     // What is left of a return to where it stood is rounding.
-    length("Residual", Math.abs(headline.residual_m) < ROUNDING * headline.peak_m ? 0 : headline.residual_m),
+    { ...length("Residual", Math.abs(headline.residual_m) < ROUNDING * headline.peak_m ? 0 : headline.residual_m), signed: true },
     gap ? { label: "Gap used", value: gapRatio, text: digits(100 * gapRatio, 3), unit: "%", over: gapRatio > 1 } : { label: "Times it slides", value: slips, text: String(slips), unit: "" },
     roof === null ? acceleration("Block accel\u00aderation", headline.block_m_per_s2) : acceleration("Roof accel\u00aderation", roof),
     ...(roof === null ? [] : [{ label: "Base shear / weight", value: baseShear, text: digits(baseShear, 3), unit: "" }]),
   ];
 }
 
-/** What B has instead, and by how much the present value differs from it. */
+/** What B has instead, and by how much the present value differs from it; no share of what lies about zero. */
 function versus(now: Figure, pinned: Figure | undefined): string {
   if (!pinned) return "";
   const share = Math.round(100 * (now.value / pinned.value - 1));
-  const more = pinned.value === 0 || !Number.isFinite(share) ? "" : share === 0 ? ", as now" : `, now ${share > 0 ? "+" : "−"}${Math.abs(share)} %`;
+  const more = pinned.signed || pinned.value === 0 || !Number.isFinite(share) ? "" : share === 0 ? ", as now" : `, now ${share > 0 ? "+" : "−"}${Math.abs(share)} %`;
   return `B ${pinned.text}${pinned.unit && ` ${pinned.unit}`}${more}`;
 }
 

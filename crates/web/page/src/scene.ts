@@ -83,6 +83,9 @@ const STOREY_M = 3;
 const BELOW = 66;
 const ABOVE = 46;
 
+/** Width of the word friction, with a margin, in px. */
+const WORD = 50;
+
 /** Length of the arrow of the largest friction force, in px. */
 const ARROW = 46;
 
@@ -188,7 +191,7 @@ export class Scene {
     const swing = Math.max(largestOf(answer).storey, pinned ? largestOf(pinned).storey : 0);
     const room = Math.max(peak + swing, Math.min(structure.gap_m ?? 0, 2 * peak)) + shown.tablePeak;
     const above = this.magnified ? ABOVE + 14 : ABOVE;
-    const scale = Math.min((floorY - above) / (total + 1.6 * blockHeight), (0.92 * width) / (blockWidth + 2.2 * Math.min(room, 2 * blockWidth)));
+    const scale = Math.min((floorY - above) / (total + 1.6 * blockHeight), Math.max(0.55 * width, Math.min(0.92 * width, width - 2 * (ARROW + 18))) / (blockWidth + 2.2 * Math.min(room, 2 * blockWidth)));
     const [bw, bh] = [blockWidth * scale, blockHeight * scale];
     const wanted = Math.min((0.16 * width) / (peak * scale), (0.47 * width - bw / 2) / ((peak + swing) * scale));
     this.factor = this.magnified ? Math.max(1, floored(wanted)) : 1;
@@ -455,7 +458,9 @@ export class Scene {
     c.lineTo(to - sign * 9, y - 5);
     c.lineTo(to - sign * 9, y + 5);
     c.fill();
-    this.label(c, "friction", from, y - 8, sign > 0 ? "left" : "right", this.colours.slide);
+    // The word is whole, at the edge of the picture too.
+    const room = box(this.canvas)[0] - WORD;
+    this.label(c, "friction", sign > 0 ? Math.min(from, room) : Math.max(from, WORD), y - 8, sign > 0 ? "left" : "right", this.colours.slide);
     this.part("Friction", "The force of friction on the block. It holds the block while it sticks, and acts against its motion while it slides. The arrow is longest where the force is largest in this motion.", Math.min(from, to), y - 20, Math.abs(to - from), 26);
   }
 

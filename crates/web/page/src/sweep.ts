@@ -134,7 +134,7 @@ export class SweepTab implements Tab {
       this.result.show(this.of, this.charts);
       this.update();
       this.show(rows, state, input.symbol ?? "", input.in_si ?? 1, input.value ?? 0, input.path);
-      this.page.say(`The sweep of ${input.path} is done: ${count} runs.`);
+      this.page.say(`The sweep of ${labelOf(input.path)} is done: ${count} runs.`);
     } catch (error) {
       this.pool.stop();
       this.of = "";

@@ -42,7 +42,7 @@ export function runs(test, on) {
     on(async (page) => {
       await ran(page, "design");
       const { said, press } = await pointed(page, "design", 0);
-      const [, friction] = /slider\.kinetic_friction ([\d.]+)/.exec(said);
+      const [, friction] = /Kinetic friction ([\d.]+)/.exec(said);
       await press();
       await settled(page);
       const text = await page.locator("#model-text").inputValue();
