@@ -183,6 +183,7 @@ class Control {
   }
 
   private right(): void {
+    if (this.problem.hidden) return;
     this.field.removeAttribute("aria-invalid");
     this.field.removeAttribute("aria-describedby");
     this.field.title = "";

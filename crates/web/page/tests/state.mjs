@@ -279,7 +279,7 @@ async function atRest(page, whole) {
   // The address follows within an instant.
   for (let i = 0; i < 100; i++) {
     [now, link] = await page.evaluate(async () => [globalThis.tried.shown(), await globalThis.tried.linked()]);
-    if (now.refused || (link && link.text === now.text)) break;
+    if (now.refused || (link && link.text === now.text && link.display === now.display)) break;
     await page.waitForTimeout(20);
   }
   assert.ok(now.stepwise, "the stepwise method stands beside where it is asked for");
