@@ -44,7 +44,7 @@ pub use mapping::{Channel, ColumnRef, MappedColumn, Mapping, Zero};
 pub use modal::{
     ModalOptions, ModalPoint, ModalRow, ModalTable, OPENSEES_TITLE, Share, read_modes,
 };
-pub use motion::{MotionSource, PairOf, RecordAlongY, RecordSource, Scale};
+pub use motion::{MotionSource, PairOf, RecordAlongY, RecordSource, Scale, stem};
 pub use overrides::{InputValue, Override, dimension_of};
 pub use plan_keys::MAX_RUNS;
 pub use variation::Variation;

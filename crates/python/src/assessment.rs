@@ -146,8 +146,8 @@ fn suite_of(records: Named, second: Named) -> Suite {
 fn own_motion(py: Python<'_>, model: &Model) -> PyResult<Suite> {
     let analysis = model.analysis.clone();
     let open = OpenJob::new(model.path(), analysis, None).map_err(|error| of_job(py, &error))?;
-    let (made, loaded) = (open.sources.is_empty(), open.job.loaded);
-    Ok(Suite::of([(loaded.description.join("; "), loaded)], made))
+    let (name, made) = (open.motion_name(), open.sources.is_empty());
+    Ok(Suite::of([(name, open.job.loaded)], made))
 }
 
 /// A model on a suite.

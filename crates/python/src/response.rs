@@ -155,7 +155,7 @@ impl Response {
         self.history()?;
         let ((outcome, summary), open) = (&**of, self.job()?);
         let loaded = &open.job.loaded;
-        let record = loaded.description.join("; ");
+        let record = open.motion_words();
         let toml = open.job.analysis.to_toml_with_motion();
         let inputs = [InputText { path: &open.name, text: &toml }];
         let paths: Vec<String> =

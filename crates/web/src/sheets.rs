@@ -25,6 +25,7 @@ use slipstick_report::assessment::answer::Tabled;
 use slipstick_report::assessment::{Provenance, Sheet, answer};
 use slipstick_report::json::{each, pretty};
 use slipstick_report::study::StudyReport;
+use slipstick_report::tables::to_csv;
 use slipstick_report::{FileNote, InputText, report, view};
 use wasm_bindgen::prelude::*;
 
@@ -81,13 +82,7 @@ impl Page {
 }
 
 impl Page {
-    /// `exported` where the command calls what it is of otherwise.
-    fn new(
-        (sheet, exported): (&Sheet, Option<&Sheet>),
-        inputs: &[InputText<'_>],
-        files: &[FileNote<'_>],
-        again: &Again,
-    ) -> Self {
+    fn new(sheet: &Sheet, inputs: &[InputText<'_>], files: &[FileNote<'_>], again: &Again) -> Self {
         let first = sheet.first.as_ref().map(|(name, sentence)| format!("{name}: {sentence}"));
         let state = pretty(&view! {
             kind: sheet.kind,
@@ -103,12 +98,11 @@ impl Page {
             records: each(&again.records, |(path, text, file)| view! { path, text, file }),
         });
         let command_line = again.commands.last().map_or("", String::as_str);
-        let (provenance, out) =
-            (Provenance { command_line, files, inputs }, exported.unwrap_or(sheet));
+        let provenance = Provenance { command_line, files, inputs };
         Self {
             state,
-            html: out.to_html(&provenance),
-            json: out.to_json(),
+            html: sheet.to_html(&provenance),
+            json: sheet.to_json(),
             tables: again.tables.clone(),
         }
     }
@@ -194,7 +188,7 @@ impl<'a> Settings<'a> {
                     words.extend([format!("--{name}"), text.to_owned()]);
                 }
             } else {
-                words.push(kinds[i - 1].name().to_owned());
+                words.push(table_of(kinds[i - 1]));
             }
             for (name, text) in self.pairs() {
                 let Some(field) = kind.fields().iter().find(|field| field.name == name) else {
@@ -219,6 +213,11 @@ impl Asks<'_> {
     fn leaves_unsaid(&self) -> bool {
         ![self.units, self.dt, self.channel].concat().is_empty()
     }
+}
+
+/// The table that a command before another writes, by its path from where both are run.
+fn table_of(kind: Kind) -> String {
+    format!("{0}/{0}.csv", kind.name())
 }
 
 /// The requests that a tab makes, one after the other.
@@ -428,27 +427,36 @@ pub fn assess(
     let job = Job::new(records, text, options)?;
     let (of, answer) = followed(|engine| job.answer(kind, engine))?;
     let sheet = answer::sheet(&answer, display);
-    // The command fits a fragility to a folder, by whose name it calls it.
-    let exported = (kind == Kind::Fragility).then(|| {
-        let name = Kind::Ida.name().to_owned();
-        answer::sheet(&Answer { name, ..answer.clone() }, display)
+    // The command fits a fragility to the table that the one before it wrote, and reads nothing else.
+    let fitted = of.as_ref().and_then(|of| match &of.found {
+        Results::Ida { run, .. } => Some(crate::sha256(to_csv(&run.rows).as_bytes())),
+        _ => None,
     });
+    let kind_of_runs = answer::kind_of_runs(&answer);
     let tabled: Vec<Tabled> =
         of.into_iter().chain(core::iter::once(answer)).flat_map(answer::tables).collect();
-    let inputs = [InputText { path: MODEL, text }];
-    let sha256 = crate::sha256(text.as_bytes());
-    let mut files = vec![FileNote { path: MODEL, sha256: &sha256, description: "model" }];
-    files.extend(job.taken.iter().map(|taken| FileNote {
-        path: &taken.path,
-        sha256: &taken.sha256,
-        description: &taken.description,
-    }));
+    let own = [InputText { path: MODEL, text }];
+    let (model, table) = (crate::sha256(text.as_bytes()), table_of(Kind::Ida));
+    let (inputs, files) = match &fitted {
+        Some(sha256) => {
+            (&[][..], vec![FileNote { path: &table, sha256, description: kind_of_runs }])
+        }
+        None => {
+            let taken = job.taken.iter().map(|taken| FileNote {
+                path: &taken.path,
+                sha256: &taken.sha256,
+                description: &taken.description,
+            });
+            let model = FileNote { path: MODEL, sha256: &model, description: "model" };
+            (&own[..], core::iter::once(model).chain(taken).collect())
+        }
+    };
     let again = Again {
         commands: job.settings.commands(kind, display),
         records: job.taken.iter().map(RecordOfSuite::words).collect(),
         tables: runs::tables(&tabled, display),
     };
-    Ok(Page::new((&sheet, exported.as_ref()), &inputs, &files, &again))
+    Ok(Page::new(&sheet, inputs, &files, &again))
 }
 
 /// The records that were asked for, else the model's own motion; the files of either.
@@ -499,7 +507,7 @@ fn suite(
                 RecordOfSuite { path, file, text: None, sha256, description }
             })
             .collect();
-        read.push((loaded.description.join("; "), loaded));
+        read.push((loaded.name(analysis.motion.as_ref()), loaded));
     } else {
         // A record is called by the stem of its file, by its path where stems repeat.
         let stem = |path: &String| {
@@ -762,7 +770,7 @@ impl Planned {
         let note = |path, sha256, description| FileNote { path, sha256, description };
         let mut files = vec![note(PLAN, &plan[..], "plan"), note(&self.model, &model, "model")];
         files.extend(self.files.iter().map(|file| note(&file.path, &file.sha256, "record")));
-        Ok(Page::new((&study.sheet(), None), &inputs, &files, &again))
+        Ok(Page::new(&study.sheet(), &inputs, &files, &again))
     }
 }
 

@@ -2,7 +2,7 @@
 //! component, the scale, and what is to be said of all that.
 
 use super::unfit::vertical_alone;
-use super::{PairOf, Scale};
+use super::{MotionSource, PairOf, Scale};
 use crate::error::{MotionError, listed};
 use crate::motion::processing::{Step, process_motion};
 use crate::motion::{Figures, GroundMotion};
@@ -129,6 +129,22 @@ impl Loaded {
         let warnings = components.into_iter().flatten().flat_map(judged).collect();
         let made = Self::made(motion.clone(), description);
         Self { warnings, ..made }.with(motion, 1.0)
+    }
+
+    /// What it is called where a name is needed: a record as its source, whatever is made by what it is.
+    #[must_use]
+    pub fn name(&self, source: Option<&MotionSource>) -> String {
+        match source {
+            Some(MotionSource::Record(record)) => record.name(),
+            _ => self.description.join("; "),
+        }
+    }
+
+    /// A name of it, with what was understood of its files as a note.
+    #[must_use]
+    pub fn words(&self, name: &str) -> String {
+        let understood = self.description.join("; ");
+        if name == understood { understood } else { format!("{name} ({understood})") }
     }
 
     /// The same times a factor; what its reader said stands, how it starts and ends is said anew.
