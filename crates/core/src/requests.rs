@@ -10,7 +10,7 @@ mod laboratory;
 mod single;
 mod suite;
 
-pub use fields::{Field, FrontEnd, Request, Takes};
+pub use fields::{Field, FrontEnd, Measures, Request, Takes};
 pub use kinds::{Kind, NOT_OFFERED, table};
 pub use laboratory::Comparing;
 pub use single::Single;

@@ -1,5 +1,6 @@
 //! `Table`: columns that every library of data frames takes.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
@@ -11,8 +12,11 @@ use numpy::{IntoPyArray, PyReadonlyArray1};
 use pyo3::exceptions::{PyKeyError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyDict, PyList};
+use slipstick::error::similar;
 use slipstick::table::{self, Cells, Column};
-use slipstick_files::to_csv;
+use slipstick_files::{read_table, to_csv, to_parquet, write_whole};
+
+use crate::errors::{of_argument, of_file};
 
 /// Columns as the package wraps them.
 #[pyclass(module = "slipstick._core", frozen)]
@@ -75,7 +79,12 @@ impl Table {
     /// A column: an array of doubles where it holds numbers, else a list.
     fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let column = self.0.columns.iter().find(|column| column.name == name);
-        let column = column.ok_or_else(|| PyKeyError::new_err(name.to_owned()))?;
+        let column = column.ok_or_else(|| {
+            let names = self.0.columns.iter().map(|column| column.name.as_str());
+            let hint = similar(name, names).map(|near| format!("; nearest is {near:?}"));
+            let hint = hint.unwrap_or_default();
+            PyKeyError::new_err(format!("expected a column of the table, found {name:?}{hint}"))
+        })?;
         Ok(match &column.cells {
             Cells::Numbers(cells) => cells.clone().into_pyarray(py).into_any(),
             Cells::Counts(cells) => PyList::new(py, cells)?.into_any(),
@@ -87,6 +96,32 @@ impl Table {
     /// Write the table as the text of a CSV file.
     fn to_csv(&self) -> String {
         to_csv(&self.0)
+    }
+
+    /// Write the table as a file, CSV or Parquet by the end of its name.
+    fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        let written = match ending.as_deref() {
+            Some("csv") => write_whole(&path, to_csv(&self.0).as_bytes()),
+            Some("parquet") => to_parquet(&path, &self.0).and_then(|of| write_whole(&path, &of)),
+            _ => {
+                let found = path.display().to_string();
+                return Err(of_argument(
+                    py,
+                    "path",
+                    "a name that ends in .csv or .parquet",
+                    &found,
+                ));
+            }
+        };
+        written.map_err(|error| of_file(py, &error))
+    }
+
+    /// Read a table in CSV or Parquet.
+    #[staticmethod]
+    fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        let read = py.detach(|| read_table(&[path]));
+        read.map(|read| Self(read.table)).map_err(|error| of_file(py, &error))
     }
 
     /// The table as a stream of Arrow's C interface.

@@ -46,14 +46,22 @@ def test_errors_are_in_words_of_python(tmp_path: Path) -> None:
             ss.Plan(block(), {"quiet": pulse().scaled(0.0)}, measure="PGA", levels=["1 g"])),
         "^b: expected the other component of a, found the same motion$": lambda: ss.study(
             ss.Plan(block(), motions, second={"b": pulse()})),
-        "^records: expected motions by name, {name: motion}, found Motion$": lambda: ss.ida(
-            block(), pulse(), limit="9 mm"),  # type: ignore[arg-type]
-        "^records: expected motions by name, {name: motion}, found list$": lambda: ss.Plan(
-            block(), [pulse()]),  # type: ignore[arg-type]
-        "^records: expected a motion as 'a', found ndarray$": lambda: ss.suite(
+        r"^records: expected motions: .*, found the path 'a.txt' \(read_record or read_suite reads it\)$": lambda: ss.ida(
+            block(), "a.txt", limit="9 mm"),  # type: ignore[arg-type]
+        "^records: expected a motion in place 2, found the path": lambda: ss.Plan(
+            block(), [pulse(), Path("a.txt")]),  # type: ignore[list-item]
+        r"^records: expected a motion as 'a', found an array \(Motion\(array, ": lambda: ss.suite(
             block(), {"a": np.zeros(3)}),  # type: ignore[dict-item]
-        "^designs: expected arrays by path, {path: array}, found list$": lambda: ss.demands(
-            block(), pulse(), [1.0]),  # type: ignore[arg-type]
+        "^motion: expected motions: .*, found an array": lambda: ss.run(
+            block(), np.zeros(3)),  # type: ignore[call-overload]
+        "^vary: expected arrays by path, {path: array}, or a frame of designs, found list$": lambda: ss.demands(
+            block(), pulse(), [1.0]),
+        "^slider.radius: expected finite numbers, found NaN in row 1$": lambda: ss.demands(
+            block(), pulse(), {"slider.radius": [1.0, np.nan]}),
+        "^vary.slider.radius: expected finite numbers, found nan$": lambda: ss.study(
+            ss.Plan(block(), motions, {"slider.radius": [1.0, np.nan]})),
+        "^samples: expected a number of samples beside distributions, found none$": lambda: ss.Plan(
+            block(), motions, {"slider.radius": {"uniform": [1.0, 2.0]}}),
     }
     for expected, call in calls.items():
         text = told(call)

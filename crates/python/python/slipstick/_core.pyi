@@ -1,7 +1,7 @@
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Any, NoReturn, final, overload
+from typing import Any, final, overload
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -27,15 +27,20 @@ __all__ = [
     "fit",
     "identify",
     "levels",
+    "numbers_in",
     "plain",
     "read_channels",
     "read_runs",
+    "read_study",
     "read_suite",
     "run",
     "schema",
     "study",
     "study_id",
     "suite",
+    "unit_at",
+    "unit_in",
+    "unit_of_measure",
     "units",
 ]
 
@@ -77,6 +82,18 @@ class Model:
         modes: int | None = None,
         direction: str = "x",
     ) -> Model: ...
+    @staticmethod
+    def from_modes(
+        phi: Any,
+        omega: Any,
+        damping: Any,
+        mass: Any,
+        values: dict[str, Any] | None = None,
+        *,
+        points: dict[str, int] | None = None,
+        influence: Any = None,
+        **tables: Any,
+    ) -> Model: ...
     def with_(self, values: dict[str, Any]) -> Model: ...
     def value(self, path: str) -> float | None: ...
     def to_opensees(self, motion: Motion, k_init: str) -> str: ...
@@ -112,13 +129,16 @@ class Motion:
         path: str | PathLike[str],
         *,
         y: str | PathLike[str] | None = None,
-        channel: str | None = None,
+        channel: str | int | None = None,
         units: str | None = None,
         dt: float | str | None = None,
         vertical: str | PathLike[str] | None = None,
     ) -> Motion: ...
     @staticmethod
-    def from_obspy(trace: Any, *, units: str) -> Motion: ...
+    def from_obspy(stream: Any, *, units: str | None = None) -> Motion: ...
+    def _recorded(
+        self, station: str | None, component: str | None, start_ns: int | None, component_y: str | None
+    ) -> Motion: ...
     @staticmethod
     def from_eqsig(signal: Any, *, units: str = "m/s2") -> Motion: ...
     def scaled(
@@ -145,7 +165,9 @@ class Motion:
     def __getitem__(self, key: slice, /) -> Motion: ...
     @overload
     def __getitem__(self, key: Any, /) -> float: ...
-    def __iter__(self) -> NoReturn: ...
+    def at(self, time: Any) -> float: ...
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]: ...
+    def __iter__(self) -> Iterator[float]: ...
     @property
     def time_s(self) -> NDArray[np.float64]: ...
     @property
@@ -174,13 +196,13 @@ class Motion:
     def __reduce__(self) -> tuple[Any, ...]: ...
     @staticmethod
     def _from_parts(
-        times_s: NDArray[np.float64],
-        horizontal: NDArray[np.float64],
-        along_y: NDArray[np.float64] | None,
-        vertical: NDArray[np.float64] | None,
+        times_s: Any,
+        horizontal: Any,
+        along_y: Any,
+        vertical: Any,
         description: list[str],
         warnings: list[tuple[str, float | None, str]],
-        origin: tuple[float, str | None, str | None, str | None, float | None],
+        origin: tuple[float, tuple[Any, ...], tuple[Any, ...] | None],
     ) -> Motion: ...
 
 @final
@@ -203,6 +225,7 @@ class Response:
     def motion(self) -> Motion: ...
     def _energy(self) -> dict[str, NDArray[np.float64]]: ...
     def _events(self) -> list[tuple[float, str, float, float, str]]: ...
+    def _save(self, folder: str | PathLike[str], beside: list[tuple[str, str]]) -> None: ...
     def _report_html(self, units: str) -> str: ...
     def _figures(self) -> list[tuple[str, str]]: ...
 
@@ -215,6 +238,9 @@ class Table:
     @property
     def units(self) -> dict[str, str]: ...
     def to_csv(self) -> str: ...
+    def write(self, path: str | PathLike[str]) -> None: ...
+    @staticmethod
+    def read(path: str | PathLike[str]) -> Table: ...
     def __len__(self) -> int: ...
     def __getitem__(self, name: str, /) -> Any: ...
     def __eq__(self, other: object, /) -> bool: ...
@@ -262,10 +288,14 @@ def demands(
     records: list[tuple[str, Motion]],
     designs: list[tuple[str, Any]],
     *,
+    scale: Any = None,
+    measure: str | None = None,
+    levels: Any = None,
     one_of: int | None = None,
     jobs: int | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> Table: ...
+def read_study(folder: str | PathLike[str] | Path) -> Study: ...
 def study_id(plan: str | PathLike[str] | Path) -> str: ...
 
 @final
@@ -284,7 +314,7 @@ def read_suite(
     patterns: list[str],
     *,
     y: list[str] = ...,
-    channel: str | None = None,
+    channel: str | int | None = None,
     units: str | None = None,
     dt: float | str | None = None,
     vertical: list[str] = ...,
@@ -300,7 +330,11 @@ def schema(plan: bool) -> str: ...
 def units() -> list[tuple[str, str, float, str]]: ...
 def plain(path: str, value: object) -> bool | int | float | str | None: ...
 def levels(text: str, measure: str) -> list[str]: ...
-def fields(kind: str) -> list[tuple[str, bool, str, str]]: ...
+def fields(kind: str) -> list[tuple[str, bool, bool, str, str]]: ...
+def unit_in(kind: str, name: str, key: str, demand: str | None, measure: str | None) -> str: ...
+def unit_at(path: str) -> str: ...
+def unit_of_measure(measure: str) -> str: ...
+def numbers_in(name: str, values: Any, unit: str) -> list[float]: ...
 def assess(
     kind: str,
     model: Model,
