@@ -219,7 +219,12 @@ impl Study {
             return Err(plan.error_at(&format!("vary.{ROTATE}"), expected, found));
         }
         if !in_plane {
-            variation.along_x_alone()?;
+            variation.along_x_alone().map_err(|error| {
+                if !records::has_pairs(&records) {
+                    return error;
+                }
+                plan.error_at("records.pairs", together_for(&error.path), "\"separate\"")
+            })?;
         }
         let variation = if in_plane { variation.in_plane() } else { variation };
         let design = Design::new(plan, &variation)?;
@@ -560,6 +565,11 @@ impl Study {
     pub fn measures(&self) -> &[Measure] {
         &self.measures
     }
+}
+
+/// What is expected of pairs under a model with a key of two directions.
+pub(crate) fn together_for(key: &str) -> String {
+    format!("together, for {key} is of motions in two directions")
 }
 
 /// The first of some numbers that does not fit, with its row from 0.

@@ -449,7 +449,7 @@ impl Model {
     /// motion
     ///     The motion; the model's tail is added.
     /// k_init
-    ///     Stiffness of that spring with its unit, ``"10 kN/mm"``: a number that physics does not have.
+    ///     Stiffness of that spring, ``"10 kN/mm"`` or in N/m: a number that physics does not have.
     ///
     /// Returns
     /// -------
@@ -475,10 +475,13 @@ impl Model {
     fn to_opensees(
         &self,
         py: Python<'_>,
-        motion: &Motion,
+        motion: &Bound<'_, PyAny>,
         k_init: &Bound<'_, PyAny>,
     ) -> PyResult<String> {
-        let k_init = quantity("k_init", k_init, Dimension::Stiffness, false)?;
+        let one = py.import("slipstick._records")?.getattr("one")?;
+        let motion = one.call1(("motion", motion))?;
+        let motion = motion.cast::<Motion>()?.get();
+        let k_init = quantity("k_init", k_init, Dimension::Stiffness, true)?;
         let job = Job::new(self.analysis.clone(), motion.0.loaded.clone());
         let job = job.map_err(|error| of_input(py, &error))?;
         script(&self.title(), &self.analysis.model, &job.motion, k_init)

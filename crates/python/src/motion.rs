@@ -264,14 +264,13 @@ impl Motion {
     /// factor
     ///     What it is multiplied with; may be negative.
     /// pga
-    ///     In place of it the peak that the horizontal component, of two the larger, is to have, with its unit:
-    ///     ``"0.3 g"``.
+    ///     In place of it the peak that the horizontal component, of two the larger, is to have: ``"0.3 g"``, or in m/s².
     /// spectrum
     ///     In place of it a spectrum that it is brought to, 5 % damped, in the mean of the logarithms: the shape of
     ///     ASCE/SEI 7, ``"sds = 1.2 g, sd1 = 0.8 g, tl = 8 s"``, a CSV with the columns ``period_s`` and ``sa_g``,
     ///     or columns ``period_s`` and ``sa_m_per_s2``. Of two components the largest over all directions counts.
     /// periods
-    ///     First and last period of that, ``"0.6 s..3.8 s"``.
+    ///     First and last period of that, ``"0.6 s..3.8 s"`` or ``(0.6, 3.8)``.
     ///
     /// Raises
     /// ------
@@ -284,23 +283,24 @@ impl Motion {
         factor: Option<&Bound<'_, PyAny>>,
         pga: Option<&Bound<'_, PyAny>>,
         spectrum: Option<&Bound<'_, PyAny>>,
-        periods: Option<&str>,
+        periods: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let motion = &self.0.motion;
+        let periods = periods.map(signal::range_of_periods).transpose()?;
         if let Some(target) = spectrum {
             if factor.is_some() || pga.is_some() {
                 return Err(of_argument(py, "spectrum", "a factor, pga or a spectrum", "two"));
             }
-            let factor = signal::factor_to_spectrum(py, motion, target, periods)?;
+            let factor = signal::factor_to_spectrum(py, motion, target, periods.as_deref())?;
             return Self::derived(py, self.0.scaled(factor), self);
         }
         if let Some(periods) = periods {
-            return Err(of_argument(py, "periods", "a spectrum beside them", periods));
+            return Err(of_argument(py, "periods", "a spectrum beside them", &periods));
         }
         let (name, given, factor) = match (factor, pga) {
             (Some(given), None) => ("factor", given, factor_of(given)?),
             (None, Some(given)) => {
-                let peak = quantity("pga", given, Dimension::Acceleration, false)?;
+                let peak = quantity("pga", given, Dimension::Acceleration, true)?;
                 let factor = motion.factor_to_peak(peak).map_err(|error| {
                     let expected = match error {
                         MotionError::ZeroPeak => "a motion that is not zero throughout",

@@ -225,6 +225,24 @@ pub(crate) fn processed(
     Ok(Motion(LoadedMotion { loaded, sources: motion.0.sources.clone() }))
 }
 
+/// The first and the last of a range of periods as its text, `0.6 s..3.8 s`.
+pub(crate) fn range_of_periods(given: &Bound<'_, PyAny>) -> PyResult<String> {
+    if given.is_instance_of::<PyString>() {
+        return given.extract();
+    }
+    let ends = match plain("periods", given)? {
+        None if given.hasattr("__iter__")? => several("periods", given, Dimension::Time)?,
+        _ => Vec::new(),
+    };
+    match ends[..] {
+        [from_s, to_s] => Ok(format!("{from_s:?} s..{to_s:?} s")),
+        _ => {
+            let expected = "the first and the last period, \"0.6 s..3.8 s\" or (0.6, 3.8)";
+            Err(of_argument(given.py(), "periods", expected, &given.repr()?.to_string()))
+        }
+    }
+}
+
 /// The motion brought to a spectrum: the factor in the mean of the logarithms over the periods.
 pub(crate) fn factor_to_spectrum(
     py: Python<'_>,

@@ -1,5 +1,6 @@
 //! `Table`: columns that every library of data frames takes.
 
+use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -25,6 +26,19 @@ pub struct Table(pub(crate) table::Table);
 /// A column as it is pickled: name, unit, kind, cells.
 type Parts<'py> = (String, String, &'static str, Bound<'py, PyAny>);
 
+/// A unit as every library of units reads it: `m/s²` is in none an `s2`.
+fn legible(unit: &str) -> Cow<'_, str> {
+    let is_power = |at: usize| unit[..at].ends_with(|c: char| c.is_ascii_alphabetic());
+    let powers = [("2", "²"), ("3", "³"), ("4", "⁴")];
+    let place = powers.iter().find_map(|(digit, power)| {
+        unit.find(digit).filter(|at| is_power(*at)).map(|at| (at, *power))
+    });
+    match place {
+        Some((at, power)) => format!("{}{power}{}", &unit[..at], &unit[at + 1..]).into(),
+        None => unit.into(),
+    }
+}
+
 /// A column as Arrow has it; its unit stands in the field's metadata under `unit`.
 fn arrow_column(column: &Column) -> (Field, ArrayRef) {
     let (kind, array): (DataType, ArrayRef) = match &column.cells {
@@ -45,7 +59,7 @@ fn arrow_column(column: &Column) -> (Field, ArrayRef) {
     let field = Field::new(&column.name, kind, true);
     let field = match column.unit.as_str() {
         "" => field,
-        unit => field.with_metadata([("unit".to_owned(), unit.to_owned())]),
+        unit => field.with_metadata([("unit".to_owned(), legible(unit).into_owned())]),
     };
     (field, array)
 }
@@ -67,7 +81,7 @@ impl Table {
     fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let units = PyDict::new(py);
         for column in self.0.columns.iter().filter(|column| !column.unit.is_empty()) {
-            units.set_item(&column.name, &column.unit)?;
+            units.set_item(&column.name, legible(&column.unit))?;
         }
         Ok(units)
     }

@@ -51,7 +51,7 @@ def test_spectra_are_those_of_the_command() -> None:
     assert list(found) == [name for name in told if name not in ("file", "channel")]
     for name in found:
         assert found[name].tolist() == [float(cell) for cell in told[name]]
-    assert found.units["sa_m_per_s2"] == "m/s2" and len(found.to_pandas()) == 400
+    assert found.units["sa_m_per_s2"] == "m/s²" and len(found.to_pandas()) == 400
     told = columns(command("record", "spectrum", TAFT, *TOLD, "--fourier"))
     found = taft().fourier()
     for name in found:

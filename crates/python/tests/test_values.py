@@ -1,5 +1,7 @@
 """Values that go in: of NumPy, pint and the standard library; changed, compared, asked for."""
 
+import copy
+import json
 import os
 import pickle
 from decimal import Decimal
@@ -106,6 +108,42 @@ def test_one_rule_for_values_in_every_call() -> None:
         ss.spectrum(block(), records, vary=frame)
 
 
+def test_every_unit_is_one_that_pint_reads() -> None:
+    unit = pytest.importorskip("pint").UnitRegistry()
+    pyarrow = pytest.importorskip("pyarrow")
+    t = np.arange(0.0, 3.0, 0.01)
+    pair = ss.Motion(np.sin(6 * t), y=np.sin(4 * t), dt=0.01, units="m/s2")
+    model = block().with_({"slider.radius": "2 m", "slider.damping_ratio": 0.02})
+    response = ss.run(model, pair)
+    table = ss.demands(model, pair, {"slider.damping_ratio": 0.02, "block.mass": "1 t"}, levels=2.0)
+    tables = [table, ss.Table(response.history), response.events.table, pair.components["x"].spectrum([1.0]), ss.suite(model, [pair]).table]
+    for one in [*tables, response.history]:
+        for name, of in one.units.items():
+            # Their size in SI is 1 and what the column's name says.
+            assert unit(of).to_base_units().magnitude == 1.0, (name, of)
+            if name.endswith("_m_per_s2"):
+                assert of == "m/s²"
+    said = {field.metadata[b"unit"].decode() for field in pyarrow.table(table).schema if field.metadata}
+    assert said == set(table.units.values()) and "m/s²" in said
+
+
+def test_results_are_read_only() -> None:
+    response = ss.run(block(), quick_pulse())
+    found = ss.ida(block(), {"a": quick_pulse()}, scale_to=[1.0, 2.0])
+    for summary in (response.summary, found.summary):
+        for change in (
+            lambda s: s.update(x=1), lambda s: s.__setitem__("x", 1), lambda s: s["warnings"].append(1), lambda s: s.pop("warnings"),
+        ):
+            with pytest.raises(TypeError, match="a result does not change"):
+                change(summary)
+        own = copy.deepcopy(summary)
+        own["warnings"].append(1)
+        own["x"] = 1
+        assert "x" not in summary and type(pickle.loads(pickle.dumps(summary))) is dict
+        assert json.loads(json.dumps(summary)) == summary
+    assert response.summary["checks"]["closest_call"] is None or isinstance(response.summary["checks"]["closest_call"], dict)
+
+
 def test_motions_go_wherever_motions_go() -> None:
     one, other = quick_pulse(), quick_pulse().scaled(0.5)
     named = {"1": one, "2": other}
@@ -130,7 +168,7 @@ def test_each_design_has_its_own_intensity() -> None:
     assert table["scale"].tolist() == scale * 2
     by_level = ss.demands(block(), records, designs, measure="PGA", levels=levels, check=1.0)
     in_si = [0.2 * 9.80665, 3.0, 4.0]
-    assert by_level["level"].tolist() == in_si * 2 and by_level.units["level"] == "m/s2"
+    assert by_level["level"].tolist() == in_si * 2 and by_level.units["level"] == "m/s²"
     assert np.allclose(by_level["PGA_m_per_s2" if "PGA_m_per_s2" in by_level else "pga_m_per_s2"], in_si * 2, rtol=1e-14)
     for row in range(6):
         model = block().with_({"slider.kinetic_friction": designs["slider.kinetic_friction"][row % 3]})

@@ -11,7 +11,7 @@ from . import _core
 from ._names import renamed
 from ._progress import following
 from ._records import Suite, of_suite
-from ._request import given, paths as texts_of, several, wrong
+from ._request import a_model, given, paths as texts_of, several, wrong
 from ._result import Result, noticed, warn_of, write
 from ._table import Table
 
@@ -244,7 +244,11 @@ def suite(
     (3, ['model', 'friction', 'statistic'])
     """
     of, others, asked = of_suite("records", records, {**locals()})
+    if not isinstance(models, Mapping):
+        a_model(models, "models")
     by_name = models if isinstance(models, Mapping) else {models.name or "model": models}
+    for name, model in by_name.items():
+        a_model(model, f"models {name!r}")
     with following(progress) as on:
         answer = _core.suite(
             list(by_name.items()),
@@ -426,6 +430,7 @@ def sensitivity(
     [True, False]
     """
     asked: Mapping[str, Any] = {**locals()}
+    a_model(model)
     of: Named = []
     others: Named = []
     if records is not None:
@@ -723,6 +728,7 @@ def _assess(
     jobs: int | None,
     progress: Progress | None,
 ) -> Assessment:
+    a_model(model)
     of, others, asked = of_suite("records", records, asked)
     with following(progress) as on:
         answer = _core.assess(kind, model, of, others, given(kind, asked), jobs=jobs, progress=on)

@@ -9,7 +9,7 @@ from . import _core
 from ._names import renamed
 from ._progress import following
 from ._records import components
-from ._request import several, text_of, wrong
+from ._request import a_model, several, text_of, wrong
 from ._table import Table, columns_of, is_frame, units_of
 
 if TYPE_CHECKING:
@@ -85,6 +85,7 @@ def demands(
     >>> bool((np.diff(table["peak_sliding_displacement_m"]) > 0.0).all())
     True
     """
+    a_model(model)
     lists = _lists(vary)
     if not lists:
         raise wrong("vary", "at least one path with its values", "none")

@@ -559,7 +559,7 @@ def _titled(table: Table, name: str) -> str:
 
 
 #: Units of measured quantities as figures show them, with what one of them is in SI
-_SHOWN = {"m": ("mm", 1e-3), "m/s2": ("g", G), "N": ("kN", 1e3)}
+_SHOWN = {"m": ("mm", 1e-3), "m/s²": ("g", G), "N": ("kN", 1e3)}
 
 
 def draw_curve(name: str, curve: Table, ax: Axes | None = None, **kwargs: Any) -> Axes:

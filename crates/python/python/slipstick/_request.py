@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from math import isfinite, isnan
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
 
@@ -36,7 +37,7 @@ def given(kind: str, asked: Mapping[str, Any]) -> list[tuple[str, str]]:
 
         if isinstance(value, Mapping):
             of_field = [
-                str(path) if ends is None else f"{path}={joined(name, ends, unit(str(path)), is_range)}"
+                str(path) if ends is None else f"{path}={joined(f'{name} {path}', ends, unit(str(path)), is_range)}"
                 for path, ends in value.items()
             ]
         elif hasattr(value, "columns"):
@@ -68,12 +69,12 @@ def joined(name: str, values: Any, unit: str = "", is_range: bool = False) -> st
     """One text of a value or several; of two ends of a range with dots between."""
     if not several(values):
         return text_of(name, values, unit)
-    texts = [text_of(name, value, unit) for value in values]
+    texts = [text_of(name, value, unit, row) for row, value in enumerate(values)]
     return ("..".join if is_range and len(texts) == 2 else ", ".join)(texts)
 
 
-def text_of(name: str, value: Any, unit: str = "") -> str:
-    """The text of one value; a bare number is in a unit, where there is one."""
+def text_of(name: str, value: Any, unit: str = "", row: int | None = None) -> str:
+    """The text of one value, perhaps in a row of a list; a bare number is in a unit, where there is one."""
     if isinstance(value, PathLike):
         return str(fspath(value))
     plain = _core.plain(name, value)
@@ -81,7 +82,19 @@ def text_of(name: str, value: Any, unit: str = "") -> str:
         raise wrong(name, "a number or text", type(value).__name__)
     if isinstance(plain, bool):
         return str(plain).lower()
+    if isinstance(plain, float) and not isfinite(plain):
+        found = "NaN" if isnan(plain) else str(plain)
+        raise wrong(name, "finite numbers", found if row is None else f"{found} in row {row}")
     return str(plain) if isinstance(plain, str) or not unit else f"{plain!r} {unit}"
+
+
+def a_model(given: object, argument: str = "model") -> None:
+    """Refuses what is no model."""
+    if isinstance(given, _core.Model):
+        return
+    is_path = isinstance(given, (str, PathLike))
+    found = f"the path {str(given)!r} (Model.read reads it)" if is_path else type(given).__name__
+    raise wrong(argument, "a Model", found)
 
 
 def wrong(name: str, expected: str, found: str) -> InputError:

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, overload
 from . import _core
 from ._obspy import is_stream
 from ._records import named
-from ._request import wrong
-from ._result import in_a_line, in_html, warn_of
+from ._request import a_model, wrong
+from ._result import figures_of, in_a_line, in_html, warn_of
 from ._table import Columns, Event, Events, Table
 
 if TYPE_CHECKING:
@@ -106,6 +106,7 @@ def run(
     True
     """
     if motion is not None and not isinstance(motion, _core.Motion):
+        a_model(model)
         of = named("motion", motion)
         if is_stream(motion) and len(of) == 1:
             return run(model, *of.values(), floor_spectrum=floor_spectrum, history=history, check=check)
@@ -115,6 +116,7 @@ def run(
             if asked is not True:
                 raise wrong(name, "one motion beside it", f"{asked} with several")
         return suite(model, of, floor_spectrum=floor_spectrum)
+    a_model(model)
     core = _core.run(model, motion, floor_spectrum=floor_spectrum, history=history, check=check)
     warn_of(core._noticed())
     return Response(core, model, (floor_spectrum, history, check))
@@ -161,10 +163,7 @@ class Response:
     @cached_property
     def summary(self) -> dict[str, Any]:
         """Peaks, residuals, counts and all other figures, as ``slipstick run --json`` prints them."""
-        import json
-
-        figures: dict[str, Any] = json.loads(self._core._summary_json())
-        return figures
+        return figures_of(self._core._summary_json())
 
     @property
     def certificate(self) -> dict[str, Any]:

@@ -13,7 +13,7 @@ from ._assessment import read_suite
 from ._errors import InputError, RecordError
 from ._progress import following
 from ._records import Suite, components
-from ._request import several, text_of, wrong
+from ._request import a_model, several, text_of, wrong
 from ._result import svg_of, warn_of
 from ._table import Table, columns_of, is_frame, units_of, with_numbers
 
@@ -164,6 +164,7 @@ class Plan:
     pairs: str | None = None
 
     def __post_init__(self) -> None:
+        a_model(self.model)
         if isinstance(self.records, Suite):
             names = {"scale_to": "levels"}
             own = {name: getattr(self, names.get(name, name)) for name in ("second", "measure", "scale_to", "scale", "pairs")}
@@ -316,7 +317,7 @@ class Plan:
                 levels = _core.levels(levels, measure or "")
             elif levels is not None:
                 unit = _core.unit_of_measure(measure or "")
-                levels = [text_of("levels", level, unit) for level in levels]
+                levels = [text_of("levels", level, unit, row) for row, level in enumerate(levels)]
             measured = {"measure": measure, "levels": levels, "scale": self.scale}
             pairs = {"second": second, "pairs": self.pairs}
             # A channel that is named is taken whatever its file is called: "up" is a name here.
@@ -479,17 +480,9 @@ def _distribution(path: str, given: Any) -> str:
     for key, count in _OF_PATH.items():
         if unit and several(of.get(key)):
             values = list(of[key])
-            of_path = [_quantity(path, value, unit) for value in values[:count]]
+            of_path = [text_of(f"vary.{path}", value, unit, row) for row, value in enumerate(values[:count])]
             of[key] = of_path + (values[count:] if count is not None else [])
     return _toml(of)
-
-
-def _quantity(path: str, value: Any, unit: str) -> str:
-    """A value of a path with its unit; where it is no number, the path and the value are said."""
-    text = text_of(path, value, unit)
-    if text.startswith(("nan", "inf", "-inf")):
-        raise wrong(f"vary.{path}", "finite numbers", text.removesuffix(f" {unit}"))
-    return text
 
 
 def _by_path(vary: Any) -> dict[str, Any]:
