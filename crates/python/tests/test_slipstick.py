@@ -627,7 +627,8 @@ def test_examples_of_the_extension_run() -> None:
     import slipstick._core as core
 
     objects = [core.Model, core.Motion]
-    methods = [getattr(core.Model, name) for name in ["with_", "to_opensees"]] + [core.Motion.rotated]
+    methods = [getattr(core.Model, name) for name in ["with_", "to_opensees", "from_modes"]]
+    methods += [core.Motion.rotated, core.Motion.at]
     finder, runner = doctest.DocTestFinder(recurse=False), doctest.DocTestRunner()
     for at in [*objects, *methods]:
         for test in finder.find(at, at.__name__, module=False, globs={}):

@@ -198,6 +198,9 @@ def test_a_fragility_of_own_counts_and_capacities() -> None:
     of_table = ss.fragility(table, measure="PGA")
     of_counts = ss.fragility(levels=levels, exceeded=exceeded, runs=20, measure="PGA", units="g")
     assert of_counts.table == of_table.table and of_counts.summary["median"] == of_table.summary["median"]
+    # By SciPy, the likelihood of 20 draws at each level made largest.
+    assert of_counts.summary["median"] / 9.80665 == pytest.approx(0.31066493, rel=1e-7)
+    assert of_counts.summary["dispersion"] == pytest.approx(0.61437074, rel=1e-7)
     texts = ss.fragility(levels=[f"{level} g" for level in levels], exceeded=np.array(exceeded), runs=[20] * 4, measure="PGA")
     in_si = ss.fragility(levels=9.80665 * np.array(levels), exceeded=exceeded, runs=20, measure="PGA")
     for other in (texts, in_si):

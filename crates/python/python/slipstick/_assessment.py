@@ -592,7 +592,7 @@ def fragility(
     ['level', 'probability', 'band_low', 'band_high']
     >>> own = ss.fragility(levels=["0.1 g", "0.2 g", "0.3 g", "0.4 g"], exceeded=[1, 4, 9, 14], runs=20, measure="PGA")
     >>> round(own.summary["median"] / 9.80665, 2)
-    0.32
+    0.31
     """
     asked = given("fragility", locals())
     known = certified = None
