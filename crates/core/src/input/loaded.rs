@@ -171,7 +171,9 @@ impl Loaded {
         let Some(motion) = process_motion(&self.motion, steps)? else { return Ok(None) };
         let said = steps.iter().map(Step::to_string);
         let description = self.description.iter().cloned().chain(said).collect();
-        Ok(Some(Self { description, ..self.with(motion, 1.0) }))
+        let cut_s = |step: &Step| if let Step::Trim { from_s, .. } = step { *from_s } else { 0.0 };
+        let origin = self.origin.clone().later_by(steps.iter().map(cut_s).sum());
+        Ok(Some(Self { description, origin, ..self.with(motion, 1.0) }))
     }
 
     /// With a notice of each file along the surface that is a vertical component; a channel that was asked
