@@ -50,7 +50,7 @@ PARTS: list[tuple[str, list[tuple[str, Any]]]] = [
         "Suites of records",
         [
             (f"slipstick.{name}", getattr(ss, name))
-            for name in ["suite", "spectrum", "sensitivity", "ida", "fragility", "design", "Assessment", "Sensitivity"]
+            for name in ["Suite", "suite", "spectrum", "sensitivity", "ida", "fragility", "design", "Assessment", "Sensitivity"]
         ],
     ),
     (

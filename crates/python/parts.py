@@ -16,6 +16,9 @@ PARTS = [
     ("Storey", "storey", "A storey of the structure on the block."),
     ("Contents", "contents", "What stands unfastened on the block or on a floor and may slide there."),
     ("Frame", "frame", "What the storeys have in common."),
+    ("Structure", "structure", "A structure by its modes, instead of storeys: ``Model(structure=...)``; ``Model.from_modes`` makes one of matrices."),
+    ("Mode", "structure.mode", "A mode of a structure: ``Structure(mode=[...])``."),
+    ("Point", "structure.point", "A point of a structure whose motion is wanted: ``Structure(point=[...])``."),
     ("Sine", "motion.sine", "A sine as the motion of a model: ``Model(motion=Sine(...))``."),
     ("Sweep", "motion.sweep", "A sine of changing frequency as the motion of a model."),
     ("Pulse", "motion.pulse", "A single pulse as the motion of a model."),
@@ -57,7 +60,7 @@ def type_of(of: dict[str, Any]) -> str:
         elif "pattern" in kind or kind.get("type") == "string":
             types.append("str")
     if "str" in types and "SupportsFloat" not in types and any("pattern" in kind for kind in kinds):
-        types.append("Quantity")
+        types += ["Quantity", "SupportsFloat"]
     return " | ".join(dict.fromkeys(types)) or "Any"
 
 

@@ -59,12 +59,9 @@ impl Opened {
             None => {
                 let job = OpenJob::new(&file.path, analysis.clone(), None)
                     .map_err(|error| Failure::job(error, &file.name, &file.text()))?;
-                let record = job.job.loaded.description.join("; ");
-                {
-                    let made = job.sources.is_empty();
-                    let loaded = LoadedMotion { loaded: job.job.loaded, sources: job.sources };
-                    OpenSuite::single(&record, loaded, made)
-                }
+                let (name, made) = (job.motion_name(), job.sources.is_empty());
+                let loaded = LoadedMotion { loaded: job.job.loaded, sources: job.sources };
+                OpenSuite::single(&name, loaded, made)
             }
         };
         let mut inputs = file.inputs();

@@ -44,8 +44,8 @@ pub use mapping::{Channel, ColumnRef, MappedColumn, Mapping, Zero};
 pub use modal::{
     ModalOptions, ModalPoint, ModalRow, ModalTable, OPENSEES_TITLE, Share, read_modes,
 };
-pub use motion::{MotionSource, PairOf, RecordAlongY, RecordSource, Scale};
-pub use overrides::{InputValue, Override, dimension_of};
+pub use motion::{MotionSource, PairOf, RecordAlongY, RecordSource, Scale, stem};
+pub use overrides::{InputValue, Override, dimension_of, unit_of_bare};
 pub use plan_keys::MAX_RUNS;
 pub use variation::Variation;
 

@@ -10,7 +10,7 @@ mod laboratory;
 mod single;
 mod suite;
 
-pub use fields::{Field, FrontEnd, Request, Takes};
+pub use fields::{Field, FrontEnd, Measures, Request, Takes};
 pub use kinds::{Kind, NOT_OFFERED, table};
 pub use laboratory::Comparing;
 pub use single::Single;
@@ -35,8 +35,8 @@ use crate::input::{Analysis, Bound, FrictionBounds, Override, dimension_of};
 use crate::motion::intensity::LevelMeasure;
 use crate::notice::Notice;
 use crate::response::DemandColumn;
-use crate::study::Certified;
 use crate::study::engine::Engine;
+use crate::study::{Certified, together_for};
 use crate::table::Table;
 use crate::units::Dimension;
 
@@ -257,7 +257,14 @@ impl Request {
     ) -> Result<Option<(Analysis, Suite)>, AssessmentError> {
         let separate = self.one("pairs") == "separate";
         if separate || !(on.suite.has_pairs() || on.suite.in_plane()) {
-            on.analysis.along_x_alone()?;
+            if let Err(error) = on.analysis.along_x_alone() {
+                let of_pairs = on.suite.has_pairs() || on.suite.in_plane();
+                return Err(if separate && of_pairs {
+                    refuse("pairs", together_for(&error.path), "\"separate\"")
+                } else {
+                    error.into()
+                });
+            }
             let split = separate && on.suite.in_plane();
             return Ok(split.then(|| (on.analysis.clone(), on.suite.apart())));
         }

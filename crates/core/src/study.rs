@@ -35,10 +35,10 @@ use std::sync::OnceLock;
 
 use engine::Engine;
 
-use crate::error::{InputError, RunError, Stopped};
+use crate::error::{ChoiceError, InputError, RunError, Stopped};
 use crate::input::plan::{Levels, Plan, ROTATE, Records, Target, is_of_motion};
 use crate::input::{Bound, FrictionBounds, MAX_RUNS, Parts, Variation};
-use crate::motion::intensity::{IntensityMeasures, Measure};
+use crate::motion::intensity::{IntensityMeasures, LevelMeasure, Measure};
 use crate::motion::target::{Matched, TargetSpectrum};
 use crate::notice::NoticeKind;
 use crate::response::DemandShape;
@@ -88,6 +88,8 @@ pub struct Study {
     levels: Levels,
     /// Factors of each record's levels, record by record.
     factors: Vec<f64>,
+    /// Where every design has a scale of its own.
+    of_designs: Option<OfDesigns>,
     cases: Cases,
     /// Bounds of friction that every sample is run with; the nominal one where the model has none.
     bounds: Vec<Bound>,
@@ -103,6 +105,26 @@ pub struct Study {
     measures: Vec<Measure>,
     /// The standard measures of each record, unscaled.
     unscaled: Vec<OnceLock<Vec<f64>>>,
+}
+
+/// A scale of the records for each design.
+#[derive(Clone, Debug, PartialEq)]
+pub enum DesignScale {
+    /// Factors on every record, one a design.
+    Factors(Vec<f64>),
+    /// Values that a measure of every record takes, in SI, one a design.
+    Levels(LevelMeasure, Vec<f64>),
+}
+
+/// What follows of a scale of each design.
+#[derive(Clone, Debug)]
+struct OfDesigns {
+    /// Factors on each record, record by record.
+    factors: Vec<f64>,
+    /// Values of the measure, one a design; empty where factors were given.
+    levels: Vec<f64>,
+    /// The SI unit of these.
+    unit: &'static str,
 }
 
 /// The values of a sample and the model that they make.
@@ -197,7 +219,12 @@ impl Study {
             return Err(plan.error_at(&format!("vary.{ROTATE}"), expected, found));
         }
         if !in_plane {
-            variation.along_x_alone()?;
+            variation.along_x_alone().map_err(|error| {
+                if !records::has_pairs(&records) {
+                    return error;
+                }
+                plan.error_at("records.pairs", together_for(&error.path), "\"separate\"")
+            })?;
         }
         let variation = if in_plane { variation.in_plane() } else { variation };
         let design = Design::new(plan, &variation)?;
@@ -252,6 +279,7 @@ impl Study {
             records,
             levels,
             factors: Vec::new(),
+            of_designs: None,
             cases,
             bounds,
             matched: None,
@@ -261,6 +289,61 @@ impl Study {
             samples: OnceLock::new(),
             measures,
         })
+    }
+
+    /// The same study, of which each design has a scale of its own, in place of the levels of the plan.
+    ///
+    /// # Errors
+    /// [`ChoiceError`] for as many values as there are no designs, a factor that is not finite, a level that is not
+    /// above 0, and a record that cannot be scaled to the measure.
+    pub fn scaled_by_design(mut self, scale: DesignScale) -> Result<Self, ChoiceError> {
+        let refuse = |what: &str, expected: &str, found: String| {
+            let (what, expected) = (what.to_owned(), expected.to_owned());
+            ChoiceError { what, expected, found, nearest: None }
+        };
+        let (what, given) = match &scale {
+            DesignScale::Factors(factors) => ("scale", factors),
+            DesignScale::Levels(_, levels) => ("levels", levels),
+        };
+        let designs = self.cases.samples as usize;
+        if given.len() != designs {
+            let expected = format!("{designs} values, as many as designs");
+            return Err(refuse(what, &expected, given.len().to_string()));
+        }
+        let records = self.records.len().max(1);
+        let of_designs = match scale {
+            DesignScale::Factors(factors) => {
+                if let Some((row, factor)) = not(&factors, |factor| factor.is_finite()) {
+                    return Err(refuse(
+                        "scale",
+                        "finite factors",
+                        format!("{factor} in row {row}"),
+                    ));
+                }
+                OfDesigns { factors: factors.repeat(records), levels: Vec::new(), unit: "" }
+            }
+            DesignScale::Levels(measure, levels) => {
+                if self.records.is_empty() {
+                    let expected = "records beside them, for a made motion has its own amplitude";
+                    return Err(refuse("levels", expected, "none".to_owned()));
+                }
+                if let Some((row, level)) = not(&levels, |level| level.is_finite() && level > 0.0) {
+                    return Err(refuse("levels", "levels > 0", format!("{level} in row {row}")));
+                }
+                let mut factors = Vec::with_capacity(records * designs);
+                for record in &self.records {
+                    let unscaled = records::measured(std::slice::from_ref(record), &measure);
+                    let unscaled = unscaled.map_err(|found| {
+                        let expected = format!("records that can be scaled to {measure}");
+                        refuse("measure", &expected, found)
+                    })?;
+                    factors.extend(levels.iter().map(|level| level / unscaled));
+                }
+                OfDesigns { factors, levels, unit: measure.unit() }
+            }
+        };
+        self.of_designs = Some(of_designs);
+        Ok(self)
     }
 
     /// Numbers of records, levels, samples and bounds of friction.
@@ -351,9 +434,22 @@ impl Study {
         }
     }
 
+    /// The value of the measure of a case, in SI; NaN where its motion has a factor.
+    #[must_use]
+    pub(crate) fn level_of(&self, case: &Case) -> f64 {
+        let level = match &self.of_designs {
+            Some(of) => of.levels.get(case.design).copied(),
+            None => self.level(case.level),
+        };
+        level.unwrap_or(f64::NAN)
+    }
+
     /// The SI unit of the measure that levels are values of; empty where they are factors.
     #[must_use]
     pub fn level_unit(&self) -> &'static str {
+        if let Some(of) = &self.of_designs {
+            return of.unit;
+        }
         match &self.levels {
             Levels::Factors(_) => "",
             Levels::Measure { measure, .. } => measure.unit(),
@@ -388,7 +484,10 @@ impl Study {
     /// The case of a run.
     #[must_use]
     pub fn case(&self, run: u64) -> Case {
-        self.cases.case(run, &self.factors)
+        let case = self.cases.case(run, &self.factors);
+        let Some(of) = &self.of_designs else { return case };
+        let place = case.record * self.cases.samples as usize + case.design;
+        Case { scale: of.factors.get(place).copied().unwrap_or(1.0), ..case }
     }
 
     /// The angle by which a sample turns a pair of records, x towards y; `None` where it is not varied.
@@ -466,6 +565,16 @@ impl Study {
     pub fn measures(&self) -> &[Measure] {
         &self.measures
     }
+}
+
+/// What is expected of pairs under a model with a key of two directions.
+pub(crate) fn together_for(key: &str) -> String {
+    format!("together, for {key} is of motions in two directions")
+}
+
+/// The first of some numbers that does not fit, with its row from 0.
+fn not(numbers: &[f64], fits: impl Fn(f64) -> bool) -> Option<(usize, f64)> {
+    numbers.iter().copied().enumerate().find(|(_, number)| !fits(*number))
 }
 
 /// Models that are worth handing to a thread to be made.

@@ -40,8 +40,8 @@ pub use run::{JobError, OpenJob, reading_time, record_path, time_left};
 pub use slipstick_report::tables::{events_csv, history_csv};
 pub use study::{
     Checks, Merged, OpenStudy, STUDY_REPORT, Shard, ShardOutcome, StudyError, TARGET, clear,
-    conclude, estimate, files_of_runs, has_parts, kept_runs, limit_of_ida, merge, part_rows,
-    quoted, read_runs, read_target, run_shard,
+    conclude, estimate, files_of_runs, has_parts, kept_runs, limit_of_ida, merge, model_of_runs,
+    part_rows, quoted, read_runs, read_target, run_shard,
 };
 pub use suite::{OpenSuite, ReadRecords, SuiteError, SuiteRequest, stems_or_paths};
 pub use table::{ReadTable, read_csv, read_table, to_csv, to_parquet};

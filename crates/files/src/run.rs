@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use slipstick::assessment::single::{Job, Outcome, described};
 use slipstick::error::{InputError, MotionError, SolveError};
 use slipstick::input::loaded::Loaded;
-use slipstick::input::{Analysis, MotionSource, RecordSource};
+use slipstick::input::{Analysis, MotionSource, RecordSource, stem};
 use slipstick::progress::Cancel;
 use slipstick_report::Summary;
 
@@ -114,6 +114,25 @@ impl OpenJob {
     ) -> Result<(Outcome, Summary), JobError> {
         let outcome = self.job.run_while(floor_spectra, go_on)?;
         Ok(self.summed(outcome))
+    }
+
+    /// What the motion is called: the stem of its file, of two components both; whatever is made by what it is.
+    #[must_use]
+    pub fn motion_name(&self) -> String {
+        let paths = self.sources.iter().map(|source| source.path.display().to_string());
+        let paths: Vec<String> = paths.collect();
+        let in_plane = self.job.loaded.motion.horizontal_y_m_per_s2().is_some();
+        match paths.as_slice() {
+            [] => self.job.loaded.description.join("; "),
+            [x, y, ..] if in_plane => format!("{} + {}", stem(x), stem(y)),
+            [x, ..] => stem(x).to_owned(),
+        }
+    }
+
+    /// The same, with what was understood of the files as a note.
+    #[must_use]
+    pub fn motion_words(&self) -> String {
+        self.job.loaded.words(&self.motion_name())
     }
 
     fn summed(&self, outcome: Outcome) -> (Outcome, Summary) {

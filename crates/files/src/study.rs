@@ -20,7 +20,7 @@ pub use open::{OpenStudy, TARGET, read_target};
 pub use part::{Checks, part_rows};
 pub use parts::{REPORT as STUDY_REPORT, clear, has_parts, kept_runs};
 pub use repeat::quoted;
-pub use runs::{files_of_runs, limit_of_ida, read_runs};
+pub use runs::{files_of_runs, limit_of_ida, model_of_runs, read_runs};
 pub use shard::{Shard, ShardOutcome, estimate, run_shard};
 
 use std::path::PathBuf;

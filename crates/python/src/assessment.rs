@@ -23,7 +23,7 @@ use crate::model::Model;
 use crate::motion::Motion;
 use crate::requests::{FieldTexts, asked};
 use crate::table::Table;
-use crate::values::quantity;
+use crate::values::{channel_of, quantity};
 use crate::work::followed;
 
 /// A result as people and programs read it.
@@ -94,7 +94,7 @@ pub(crate) fn read_suite(
     py: Python<'_>,
     patterns: Vec<String>,
     y: Vec<String>,
-    channel: Option<String>,
+    channel: Option<&Bound<'_, PyAny>>,
     units: Option<&str>,
     dt: Option<&Bound<'_, PyAny>>,
     vertical: Vec<String>,
@@ -105,6 +105,7 @@ pub(crate) fn read_suite(
     });
     let units = units.transpose()?;
     let dt_s = dt.map(|dt| quantity("dt", dt, Dimension::Time, true)).transpose()?;
+    let channel = channel.map(channel_of).transpose()?;
     let asked = SuiteRequest { patterns, along_y: y, vertical, ..SuiteRequest::default() };
     let request = SuiteRequest { units, dt_s, channel, ..asked };
     let read = followed(py, None, None, |engine| ReadRecords::read(&request, engine))?;
@@ -146,8 +147,8 @@ fn suite_of(records: Named, second: Named) -> Suite {
 fn own_motion(py: Python<'_>, model: &Model) -> PyResult<Suite> {
     let analysis = model.analysis.clone();
     let open = OpenJob::new(model.path(), analysis, None).map_err(|error| of_job(py, &error))?;
-    let (made, loaded) = (open.sources.is_empty(), open.job.loaded);
-    Ok(Suite::of([(loaded.description.join("; "), loaded)], made))
+    let (name, made) = (open.motion_name(), open.sources.is_empty());
+    Ok(Suite::of([(name, open.job.loaded)], made))
 }
 
 /// A model on a suite.

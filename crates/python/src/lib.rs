@@ -27,13 +27,15 @@ mod _core {
     #[pymodule_export]
     use super::motion::Motion;
     #[pymodule_export]
-    use super::requests::{check, fields, levels, schema, units};
+    use super::requests::{
+        check, fields, levels, schema, unit_at, unit_in, unit_of_measure, units,
+    };
     #[pymodule_export]
     use super::response::{Response, run};
     #[pymodule_export]
     use super::signal::read_channels;
     #[pymodule_export]
-    use super::study::{Study, demands, study, study_id};
+    use super::study::{Study, demands, numbers_in, read_study, study, study_id};
     #[pymodule_export]
     use super::table::Table;
     #[pymodule_export]

@@ -291,6 +291,71 @@ impl Model {
         Self::from_toml(py, &text, "")
     }
 
+    /// Take the structure by its modes from the matrices of an eigenvalue analysis on a fixed base.
+    ///
+    /// Parameters
+    /// ----------
+    /// phi
+    ///     Shapes, a row a degree of freedom and a column a mode, as ``scipy.linalg.eigh(K, M)`` gives them, of any
+    ///     normalisation.
+    /// omega
+    ///     Circular frequencies in rad/s, one a mode.
+    /// damping
+    ///     Ratios of critical damping, one a mode, or one of all.
+    /// mass
+    ///     Mass matrix in kg, or the masses on its diagonal.
+    /// values
+    ///     All other keys, as for a new model: block, slider, motion.
+    /// points
+    ///     Degrees of freedom whose motion is wanted, by the names that they get, counted from 0: ``{"Roof": 9}``;
+    ///     all of them if left out.
+    /// influence
+    ///     What each degree of freedom does where the base moves by 1 along x; 1 of all if left out.
+    /// tables
+    ///     Other keys by keyword, as for a new model.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For shapes that are not orthogonal with respect to the masses, and for what makes no model.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import numpy as np
+    /// >>> import slipstick as ss
+    /// >>> model = ss.Model.from_modes(
+    /// ...     np.array([[1.0]]), [2 * np.pi * 2.0], 0.02, [200.0],
+    /// ...     {"block.mass": "325 kg", "slider.static_friction": 0.1, "slider.kinetic_friction": 0.08},
+    /// ...     points={"Roof": 0})
+    /// >>> round(model.value("structure.mode.1.period"), 12), model.value("structure.mass")
+    /// (0.5, 200.0)
+    #[staticmethod]
+    #[pyo3(signature = (phi, omega, damping, mass, values = None, *, points = None, influence = None, **tables))]
+    #[allow(clippy::too_many_arguments)]
+    fn from_modes(
+        phi: &Bound<'_, PyAny>,
+        omega: &Bound<'_, PyAny>,
+        damping: &Bound<'_, PyAny>,
+        mass: &Bound<'_, PyAny>,
+        values: Option<&Bound<'_, PyDict>>,
+        points: Option<&Bound<'_, PyDict>>,
+        influence: Option<&Bound<'_, PyAny>>,
+        tables: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let py = phi.py();
+        let asked = (phi, omega, damping, mass, points, influence);
+        let structure = py.import("slipstick._modes")?.call_method1("structure", asked)?;
+        let with_structure = match tables {
+            Some(tables) => tables.copy()?,
+            None => PyDict::new(py),
+        };
+        if with_structure.contains("structure")? {
+            return Err(of_argument(py, "structure", "that of the modes alone", "another"));
+        }
+        with_structure.set_item("structure", structure)?;
+        Self::new(py, values, Some(&with_structure))
+    }
+
     /// Give the same model with other values of some keys.
     ///
     /// Setting one of two keys that exclude each other removes the other; None removes a key, a storey, a table.
@@ -384,7 +449,7 @@ impl Model {
     /// motion
     ///     The motion; the model's tail is added.
     /// k_init
-    ///     Stiffness of that spring with its unit, ``"10 kN/mm"``: a number that physics does not have.
+    ///     Stiffness of that spring, ``"10 kN/mm"`` or in N/m: a number that physics does not have.
     ///
     /// Returns
     /// -------
@@ -410,10 +475,13 @@ impl Model {
     fn to_opensees(
         &self,
         py: Python<'_>,
-        motion: &Motion,
+        motion: &Bound<'_, PyAny>,
         k_init: &Bound<'_, PyAny>,
     ) -> PyResult<String> {
-        let k_init = quantity("k_init", k_init, Dimension::Stiffness, false)?;
+        let one = py.import("slipstick._records")?.getattr("one")?;
+        let motion = one.call1(("motion", motion))?;
+        let motion = motion.cast::<Motion>()?.get();
+        let k_init = quantity("k_init", k_init, Dimension::Stiffness, true)?;
         let job = Job::new(self.analysis.clone(), motion.0.loaded.clone());
         let job = job.map_err(|error| of_input(py, &error))?;
         script(&self.title(), &self.analysis.model, &job.motion, k_init)

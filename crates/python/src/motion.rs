@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 use std::path::PathBuf;
 
 use numpy::{IntoPyArray, PyArray1};
-use pyo3::exceptions::PyTypeError;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat};
 use slipstick::error::MotionError;
@@ -20,7 +20,7 @@ use slipstick_report::records::Histories;
 
 use crate::errors::{Escaped, of_argument, of_file, of_motion, warn_severe};
 use crate::signal;
-use crate::values::{accelerations, factor_of, quantity, samples};
+use crate::values::{accelerations, channel_of, factor_of, quantity, samples};
 
 /// A ground motion, linear between its samples.
 ///
@@ -167,7 +167,7 @@ impl Motion {
         py: Python<'_>,
         path: PathBuf,
         y: Option<PathBuf>,
-        channel: Option<String>,
+        channel: Option<&Bound<'_, PyAny>>,
         units: Option<&str>,
         dt: Option<&Bound<'_, PyAny>>,
         vertical: Option<PathBuf>,
@@ -179,6 +179,7 @@ impl Motion {
             })?),
         };
         let dt_s = dt.map(|dt| quantity("dt", dt, Dimension::Time, true)).transpose()?;
+        let channel = channel.map(channel_of).transpose()?;
         let vertical = vertical.map(|path| VerticalRequest { path, channel: None, factor: 1.0 });
         let along_y = y.map(|path| AlongYRequest {
             path,
@@ -193,19 +194,51 @@ impl Motion {
         loaded.map(Self).map_err(|error| of_file(py, &error))?.said(py)
     }
 
-    /// Take the motion of a trace of ObsPy.
+    /// Take the motion of a trace of ObsPy, or of a stream of the components of one station.
+    ///
+    /// Station, channels and the time of the first sample stand in ``origin``; ``to_obspy`` gives them back.
     ///
     /// Parameters
     /// ----------
-    /// trace
-    ///     An object with ``data`` and ``stats.delta``.
+    /// stream
+    ///     A ``Trace``, or a ``Stream`` of at most two horizontal components, along x and along y in their order, and a
+    ///     vertical one, whose channel ends in Z.
     /// units
-    ///     Units of its values.
+    ///     Units of its values; ``stats.units`` of its traces if left out.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For traces of several stations or times, gaps, and values without units.
     #[staticmethod]
-    #[pyo3(signature = (trace, *, units))]
-    fn from_obspy(trace: &Bound<'_, PyAny>, units: &str) -> PyResult<Self> {
-        let dt = trace.getattr("stats")?.getattr("delta")?;
-        Self::new(trace.py(), &trace.getattr("data")?, None, Some(&dt), None, Some(units), None)
+    #[pyo3(signature = (stream, *, units = None))]
+    fn from_obspy(stream: &Bound<'_, PyAny>, units: Option<&str>) -> PyResult<Self> {
+        let made =
+            stream.py().import("slipstick._obspy")?.call_method1("motion", (stream, units))?;
+        Ok(made.cast::<Self>()?.get().clone())
+    }
+
+    /// It with what is known of where and when it was recorded: station, component and start in ns since 1970 of
+    /// the component along x, and component of that along y.
+    fn _recorded(
+        &self,
+        station: Option<String>,
+        component: Option<String>,
+        start_ns: Option<i64>,
+        component_y: Option<String>,
+    ) -> Self {
+        let mut motion = self.0.clone();
+        let of = |component| Origin {
+            station: station.clone(),
+            component,
+            start_ns,
+            ..Origin::default()
+        };
+        motion.loaded.origin = match component_y {
+            Some(y) => of(component).with_along_y(of(Some(y))),
+            None => of(component),
+        };
+        Self(motion)
     }
 
     /// Take the motion of an acceleration signal of eqsig.
@@ -231,14 +264,13 @@ impl Motion {
     /// factor
     ///     What it is multiplied with; may be negative.
     /// pga
-    ///     In place of it the peak that the horizontal component, of two the larger, is to have, with its unit:
-    ///     ``"0.3 g"``.
+    ///     In place of it the peak that the horizontal component, of two the larger, is to have: ``"0.3 g"``, or in m/s².
     /// spectrum
     ///     In place of it a spectrum that it is brought to, 5 % damped, in the mean of the logarithms: the shape of
     ///     ASCE/SEI 7, ``"sds = 1.2 g, sd1 = 0.8 g, tl = 8 s"``, a CSV with the columns ``period_s`` and ``sa_g``,
     ///     or columns ``period_s`` and ``sa_m_per_s2``. Of two components the largest over all directions counts.
     /// periods
-    ///     First and last period of that, ``"0.6 s..3.8 s"``.
+    ///     First and last period of that, ``"0.6 s..3.8 s"`` or ``(0.6, 3.8)``.
     ///
     /// Raises
     /// ------
@@ -251,23 +283,24 @@ impl Motion {
         factor: Option<&Bound<'_, PyAny>>,
         pga: Option<&Bound<'_, PyAny>>,
         spectrum: Option<&Bound<'_, PyAny>>,
-        periods: Option<&str>,
+        periods: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let motion = &self.0.motion;
+        let periods = periods.map(signal::range_of_periods).transpose()?;
         if let Some(target) = spectrum {
             if factor.is_some() || pga.is_some() {
                 return Err(of_argument(py, "spectrum", "a factor, pga or a spectrum", "two"));
             }
-            let factor = signal::factor_to_spectrum(py, motion, target, periods)?;
+            let factor = signal::factor_to_spectrum(py, motion, target, periods.as_deref())?;
             return Self::derived(py, self.0.scaled(factor), self);
         }
         if let Some(periods) = periods {
-            return Err(of_argument(py, "periods", "a spectrum beside them", periods));
+            return Err(of_argument(py, "periods", "a spectrum beside them", &periods));
         }
         let (name, given, factor) = match (factor, pga) {
             (Some(given), None) => ("factor", given, factor_of(given)?),
             (None, Some(given)) => {
-                let peak = quantity("pga", given, Dimension::Acceleration, false)?;
+                let peak = quantity("pga", given, Dimension::Acceleration, true)?;
                 let factor = motion.factor_to_peak(peak).map_err(|error| {
                     let expected = match error {
                         MotionError::ZeroPeak => "a motion that is not zero throughout",
@@ -572,20 +605,61 @@ impl Motion {
         signal::integral(self, Quantity::Displacement).into_pyarray(py)
     }
 
-    /// ``motion["2 s":"30 s"]`` is the part between two times, its clock started anew; ``motion["3.2 s"]`` is the
-    /// acceleration along x at a time in m/s². Numbers are s.
+    /// ``motion[10]`` is a sample along x in m/s², ``motion[10:20]`` the part of ten; ``motion["2 s":"30 s"]`` is the
+    /// part between two times, its clock started anew; ``motion["3.2 s"]``, or ``motion.at(3.2)``, is the
+    /// acceleration along x at a time. Whole numbers are samples, numbers with a point are s.
     fn __getitem__<'py>(
         &self,
         py: Python<'py>,
         key: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        signal::at(py, self, key)
+        signal::item(py, self, key)
     }
 
-    /// A time is no place to start from: times are ``time_s``.
-    fn __iter__(&self) -> PyResult<Py<PyAny>> {
-        let expected = "motion.acceleration_m_per_s2 or motion.components, which have items";
-        Err(PyTypeError::new_err(format!("expected {expected}, found the motion")))
+    /// Give the acceleration along x at a time in m/s², along the straight lines between samples.
+    ///
+    /// Parameters
+    /// ----------
+    /// time
+    ///     The time in s or with its unit, ``"10 s"``; at a jump what is after it.
+    ///
+    /// Raises
+    /// ------
+    /// InputError
+    ///     For a time before the first sample or after the last.
+    ///
+    /// Examples
+    /// --------
+    /// >>> import slipstick as ss
+    /// >>> motion = ss.Motion([0.0, 1.0, 3.0, 0.0], dt=0.5, units="m/s2")
+    /// >>> motion[2], motion.at("0.75 s"), motion.at(1)
+    /// (3.0, 2.0, 3.0)
+    fn at(&self, py: Python<'_>, time: &Bound<'_, PyAny>) -> PyResult<f64> {
+        signal::at(py, &self.0.motion, time)
+    }
+
+    /// The samples in m/s² as an array, of a motion of one component: ``numpy.asarray(motion)``.
+    #[pyo3(signature = (dtype = None, copy = None))]
+    fn __array__<'py>(
+        &self,
+        py: Python<'py>,
+        dtype: Option<&Bound<'py, PyAny>>,
+        copy: Option<bool>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        if copy == Some(false) {
+            let message = "expected copy=None or copy=True: the samples of a motion are copied";
+            return Err(PyValueError::new_err(message));
+        }
+        let samples = signal::array(py, self)?.into_any();
+        match dtype {
+            None => Ok(samples),
+            Some(dtype) => samples.call_method1("astype", (dtype,)),
+        }
+    }
+
+    /// The samples in m/s² one by one, of a motion of one component.
+    fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        signal::array(py, self)?.call_method0("tolist")?.try_iter().map(Bound::into_any)
     }
 
     /// Times of the samples in s.
@@ -649,15 +723,22 @@ impl Motion {
         notices.map(|notice| (notice.kind.name(), notice.message.clone())).collect()
     }
 
-    /// What its file says of where it was recorded: ``event``, ``station``, ``component``, ``azimuth_deg``.
+    /// What its file says of where it was recorded: ``event``, ``station``, ``component``, ``azimuth_deg``; of a
+    /// stream of ObsPy also ``start``, the time of the first sample.
     #[getter]
     fn origin<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let Origin { event, station, component, azimuth_deg, along_y } = &self.0.origin;
+        let Origin { event, station, component, azimuth_deg, start_ns, along_y } = &self.0.origin;
         let said = PyDict::new(py);
         for (key, text) in [("event", event), ("station", station), ("component", component)] {
             said.set_item(key, text)?;
         }
         said.set_item("azimuth_deg", azimuth_deg)?;
+        if let Some(start_ns) = start_ns {
+            said.set_item(
+                "start",
+                py.import("numpy")?.call_method1("datetime64", (start_ns, "ns"))?,
+            )?;
+        }
         if let Some(y) = along_y {
             said.set_item("component_y", &y.component)?;
             said.set_item("azimuth_y_deg", y.azimuth_deg)?;
@@ -706,8 +787,9 @@ impl Motion {
                 .collect(),
             {
                 let of = |origin: &Origin| {
-                    let Origin { event, station, component, azimuth_deg, .. } = origin.clone();
-                    (event, station, component, azimuth_deg)
+                    let Origin { event, station, component, azimuth_deg, start_ns, .. } =
+                        origin.clone();
+                    (event, station, component, azimuth_deg, start_ns)
                 };
                 let along_y = motion.origin.along_y.as_deref();
                 (motion.factor, of(&motion.origin), along_y.map(of))
@@ -746,11 +828,12 @@ impl Motion {
         };
         let warnings = warnings.into_iter().map(warning).collect::<PyResult<_>>()?;
         let (factor, along_x, along_y) = origin;
-        let of = |(event, station, component, azimuth_deg): Said| Origin {
+        let of = |(event, station, component, azimuth_deg, start_ns): Said| Origin {
             event,
             station,
             component,
             azimuth_deg,
+            start_ns,
             along_y: None,
         };
         let origin = match along_y.map(of) {
@@ -773,8 +856,8 @@ type Pickled<'py> = (
     OriginParts,
 );
 
-/// Event, station, component and azimuth in degrees.
-type Said = (Option<String>, Option<String>, Option<String>, Option<f64>);
+/// Event, station, component, azimuth in degrees and start in ns since 1970.
+type Said = (Option<String>, Option<String>, Option<String>, Option<f64>, Option<i64>);
 
 /// Factor on the record, and what the files of its horizontal components say.
 type OriginParts = (f64, Said, Option<Said>);

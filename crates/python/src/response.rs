@@ -1,7 +1,7 @@
 //! `run` and its `Response`.
 
 use std::ops::ControlFlow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
@@ -14,11 +14,11 @@ use slipstick::error::{SolveError, Stopped};
 use slipstick::notice::{Notice, Severity};
 use slipstick::progress::Cancel;
 use slipstick::response::{History, Response as Answer};
-use slipstick_files::{JobError, LoadedMotion, OpenJob};
+use slipstick_files::{JobError, LoadedMotion, OpenJob, OutputFolder, events_csv, history_csv};
 use slipstick_report::figures::{self, Drawn};
 use slipstick_report::{DisplayUnits, FileNote, InputText, Report, Summary};
 
-use crate::errors::{of_argument, of_job};
+use crate::errors::{of_argument, of_file, of_job};
 use crate::model::Model;
 use crate::motion::Motion;
 use crate::work::interruptible;
@@ -155,7 +155,7 @@ impl Response {
         self.history()?;
         let ((outcome, summary), open) = (&**of, self.job()?);
         let loaded = &open.job.loaded;
-        let record = loaded.description.join("; ");
+        let record = open.motion_words();
         let toml = open.job.analysis.to_toml_with_motion();
         let inputs = [InputText { path: &open.name, text: &toml }];
         let paths: Vec<String> =
@@ -310,6 +310,31 @@ impl Response {
                 )
             })
             .collect()
+    }
+
+    /// Writes the files of `slipstick run --out` into a folder, and others beside them.
+    fn _save(
+        &self,
+        py: Python<'_>,
+        folder: PathBuf,
+        beside: Vec<(String, String)>,
+    ) -> PyResult<()> {
+        self.history()?;
+        let (summary, page) =
+            (self.summary()?.to_json(), self.report(DisplayUnits::Si, |of| of.to_html())?);
+        let Some(response) = self.response() else { return Err(without("history")) };
+        let written = py.detach(|| {
+            let mut output = OutputFolder::create(&folder, &[])?;
+            output.write("summary.json", summary.as_bytes())?;
+            output.write_with("history.csv", |to| history_csv(response, to))?;
+            output.write_with("events.csv", |to| events_csv(response, to))?;
+            output.write("report.html", page.as_bytes())?;
+            for (name, text) in &beside {
+                output.write(name, text.as_bytes())?;
+            }
+            output.commit()
+        });
+        written.map_err(|error| of_file(py, &error))
     }
 
     /// The report as one page of HTML.

@@ -2,8 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use numpy::{IntoPyArray, PyArray1};
+use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyFloat, PySlice, PyString};
+use pyo3::types::{PyBool, PyDict, PyFloat, PySlice, PySliceMethods, PyString};
 use slipstick::error::{ChoiceError, MeasureError, MotionError};
 use slipstick::input::loaded::Component;
 use slipstick::motion::intensity::{IntensityMeasures, LevelMeasure};
@@ -12,8 +14,9 @@ use slipstick::motion::target::{
     Matched, TargetSpectrum, matching_periods, maximum_direction_of_pair,
 };
 use slipstick::motion::{
-    FourierSpectrum, GroundMotion, Quantity, USUAL_PERIODS, logarithmic_periods, spectrum,
+    FourierSpectrum, GroundMotion, Quantity, Spectrum, USUAL_PERIODS, logarithmic_periods, spectrum,
 };
+use slipstick::progress::Cancel;
 use slipstick::record::Units;
 use slipstick::requests::{code_spectrum, periods};
 use slipstick::units::Dimension;
@@ -27,6 +30,7 @@ use crate::errors::{of_argument, of_choice, of_file, of_motion};
 use crate::motion::Motion;
 use crate::table::Table;
 use crate::values::{plain, quantity, samples};
+use crate::work::on_samples;
 
 /// A table as the package has it.
 fn tabled(py: Python<'_>, table: slipstick::table::Table) -> PyResult<Bound<'_, PyAny>> {
@@ -64,7 +68,9 @@ pub(crate) fn measures<'py>(
     let all = PyDict::new(py);
     let finite = |value: f64| value.is_finite().then_some(value);
     let standard = |motion: &GroundMotion, to: &Bound<'py, PyDict>| -> PyResult<()> {
-        for (_, key, value) in IntensityMeasures::of(motion).columns() {
+        let of = motion.clone();
+        let found = on_samples(py, motion.len(), move |_| IntensityMeasures::of(&of).columns())?;
+        for (_, key, value) in found {
             to.set_item(key, finite(value))?;
         }
         to.set_item("end_velocity_m_per_s", finite(motion.figures().end_velocity_m_per_s))
@@ -81,7 +87,9 @@ pub(crate) fn measures<'py>(
     }
     for name in names {
         let measure = LevelMeasure::parse(&name).map_err(|error| of_measure(py, "names", error))?;
-        let value = measure.of(&loaded.motion, None).map_err(|error| of_motion(py, &error))?;
+        let of = loaded.motion.clone();
+        let value = on_samples(py, of.len(), move |_| measure.of(&of, None))?;
+        let value = value.map_err(|error| of_motion(py, &error))?;
         if value.is_nan() && measure.rotated.is_some() {
             let expected = "a motion in two horizontal directions for what is over all directions";
             return Err(of_argument(py, "names", expected, &format!("{name:?} of one in one")));
@@ -129,8 +137,10 @@ pub(crate) fn response_spectrum<'py>(
     } else {
         damping.try_iter()?.map(|value| ratio(&value?)).collect::<PyResult<_>>()?
     };
-    let (times_s, a) = (motion.times_s(), motion.horizontal_m_per_s2());
-    let found = py.detach(|| spectrum(times_s, a, &periods_s, &damping));
+    let motion = motion.clone();
+    let found = on_samples(py, motion.len(), move |go_on| {
+        spectrum_by_parts(&motion, periods_s, damping, go_on)
+    })?;
     let found = found.map_err(|error| match error {
         MotionError::OutOfRange { quantity, expected, found } => {
             let argument = if quantity.starts_with("period") { "periods" } else { "damping" };
@@ -139,6 +149,30 @@ pub(crate) fn response_spectrum<'py>(
         other => of_motion(py, &other),
     })?;
     tabled(py, spectrum_table(&found))
+}
+
+/// Oscillators that are solved before it is asked whether to go on.
+const AT_ONCE: usize = 8;
+
+/// The elastic response spectrum, some periods after the others; where it is not to go on, what was found.
+fn spectrum_by_parts(
+    motion: &GroundMotion,
+    periods_s: Vec<f64>,
+    damping_ratios: Vec<f64>,
+    go_on: Cancel<'_>,
+) -> Result<Spectrum, MotionError> {
+    let (times_s, a) = (motion.times_s(), motion.horizontal_m_per_s2());
+    // What is wrong with any of them is said of all.
+    let mut ordinates = spectrum(times_s, a, &[], &damping_ratios)?.ordinates;
+    for ratio in &damping_ratios {
+        for periods_s in periods_s.chunks(AT_ONCE) {
+            ordinates.extend(spectrum(times_s, a, periods_s, &[*ratio])?.ordinates);
+            if go_on().is_break() {
+                break;
+            }
+        }
+    }
+    Ok(Spectrum { periods_s, damping_ratios, ordinates })
 }
 
 /// The Fourier amplitudes as a table.
@@ -155,7 +189,8 @@ pub(crate) fn fourier<'py>(
     if !(step_hz > 0.0) {
         return Err(of_argument(py, "step", "a frequency > 0", &step_hz.to_string()));
     }
-    let found = py.detach(|| FourierSpectrum::of(motion, step_hz));
+    let motion = motion.clone();
+    let found = on_samples(py, motion.len(), move |_| FourierSpectrum::of(&motion, step_hz))?;
     tabled(py, fourier_table(&found))
 }
 
@@ -168,7 +203,9 @@ pub(crate) fn processed(
 ) -> PyResult<Motion> {
     let read = |text: &String| Step::parse(text).map_err(|error| of_measure(py, argument, error));
     let steps: Vec<Step> = steps.iter().map(read).collect::<PyResult<_>>()?;
-    let made = py.detach(|| motion.0.loaded.processed(&steps)).map_err(|(index, error)| {
+    let (of, asked) = (motion.0.loaded.clone(), steps.clone());
+    let made = on_samples(py, of.motion.len(), move |_| of.processed(&asked))?;
+    let made = made.map_err(|(index, error)| {
         let step = steps.get(index).map(Step::to_string).unwrap_or_default();
         match error {
             MotionError::OutOfRange { quantity, expected, found } => {
@@ -186,6 +223,24 @@ pub(crate) fn processed(
     let expected = "steps that end in acceleration";
     let loaded = made.ok_or_else(|| of_argument(py, argument, expected, "another quantity"))?;
     Ok(Motion(LoadedMotion { loaded, sources: motion.0.sources.clone() }))
+}
+
+/// The first and the last of a range of periods as its text, `0.6 s..3.8 s`.
+pub(crate) fn range_of_periods(given: &Bound<'_, PyAny>) -> PyResult<String> {
+    if given.is_instance_of::<PyString>() {
+        return given.extract();
+    }
+    let ends = match plain("periods", given)? {
+        None if given.hasattr("__iter__")? => several("periods", given, Dimension::Time)?,
+        _ => Vec::new(),
+    };
+    match ends[..] {
+        [from_s, to_s] => Ok(format!("{from_s:?} s..{to_s:?} s")),
+        _ => {
+            let expected = "the first and the last period, \"0.6 s..3.8 s\" or (0.6, 3.8)";
+            Err(of_argument(given.py(), "periods", expected, &given.repr()?.to_string()))
+        }
+    }
 }
 
 /// The motion brought to a spectrum: the factor in the mean of the logarithms over the periods.
@@ -206,9 +261,10 @@ pub(crate) fn factor_to_spectrum(
     let range_s = periods(range).map_err(|error| of_choice(py, &error))?;
     let target = target_of(py, target)?;
     let periods_s = matching_periods(range_s);
-    let found = py.detach(|| {
+    let motion = motion.clone();
+    let found = on_samples(py, motion.len(), move |_| {
         let ordinates = match motion.horizontal_y_m_per_s2() {
-            Some(_) => maximum_direction_of_pair(motion, None, &periods_s)?,
+            Some(_) => maximum_direction_of_pair(&motion, None, &periods_s)?,
             None => {
                 let (times_s, a) = (motion.times_s(), motion.horizontal_m_per_s2());
                 let found = spectrum(times_s, a, &periods_s, &[0.05])?;
@@ -217,7 +273,7 @@ pub(crate) fn factor_to_spectrum(
         };
         let found = Matched::new(&target, periods_s, &[ordinates])?;
         Ok::<_, MotionError>(found.factors[0] / found.raised)
-    });
+    })?;
     let expected = "a motion that can be brought to the spectrum over these periods";
     found.map_err(|error| of_argument(py, "spectrum", expected, &error.to_string()))
 }
@@ -275,43 +331,105 @@ pub(crate) fn components<'py>(py: Python<'py>, motion: &Motion) -> PyResult<Boun
     Ok(all)
 }
 
-/// The acceleration at a time, or the part between two.
-pub(crate) fn at<'py>(
+/// A whole number that Python may index with, NumPy's too; a flag is none.
+fn index_of(value: &Bound<'_, PyAny>) -> PyResult<Option<isize>> {
+    if value.is_instance_of::<PyBool>() || !value.hasattr("__index__")? {
+        return Ok(None);
+    }
+    // What overflows is out of range however long the motion is.
+    Ok(value.call_method0("__index__").ok().map(|whole| whole.extract().unwrap_or(isize::MAX)))
+}
+
+/// The sample of a whole number, the part of a slice, or the acceleration at a time that is written with its unit or
+/// as a number with a point.
+pub(crate) fn item<'py>(
     py: Python<'py>,
     motion: &Motion,
     key: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let samples = &motion.0.loaded.motion;
-    let time = |value: &Bound<'_, PyAny>| quantity("time", value, Dimension::Time, true);
+    let loaded = &motion.0.loaded;
     if let Ok(slice) = key.cast::<PySlice>() {
-        let end = |name: &str, or: f64| {
-            let value = slice.getattr(name)?;
-            if value.is_none() { Ok(or) } else { time(&value) }
-        };
-        if !slice.getattr("step")?.is_none() {
-            return Err(of_argument(py, "step", "none (resample changes it)", "one"));
-        }
-        let (from_s, to_s) = (end("start", 0.0)?, end("stop", samples.duration_s())?);
-        let step = format!("trim {from_s:?} s {to_s:?} s");
-        return Ok(Bound::new(py, processed(py, motion, "time", &[step])?)?.into_any());
+        return Ok(Bound::new(py, part(py, motion, slice)?)?.into_any());
     }
-    let at_s = time(key)?;
+    let Some(index) = index_of(key)? else {
+        return Ok(PyFloat::new(py, at(py, &loaded.motion, key)?).into_any());
+    };
+    let values = loaded.motion.horizontal_m_per_s2();
+    let from_end = if index < 0 { index.saturating_add_unsigned(values.len()) } else { index };
+    let value = usize::try_from(from_end).ok().and_then(|index| values.get(index));
+    let value = value.ok_or_else(|| {
+        let last = values.len().saturating_sub(1);
+        let expected =
+            format!("a sample from 0 to {last} (a time is \"10 s\", or motion.at(10.0))");
+        PyIndexError::new_err(format!("sample: expected {expected}, found {index}"))
+    })?;
+    Ok(PyFloat::new(py, *value).into_any())
+}
+
+/// The part between two samples, the last of them left out, or between two times.
+fn part(py: Python<'_>, motion: &Motion, slice: &Bound<'_, PySlice>) -> PyResult<Motion> {
+    let samples = &motion.0.loaded.motion;
+    let times_s = samples.times_s();
+    let [start, stop, step] = ["start", "stop", "step"].map(|name| slice.getattr(name));
+    let (start, stop) = (start?, stop?);
+    if !step?.is_none() {
+        return Err(of_argument(py, "step", "none (resample changes it)", "one"));
+    }
+    let given = [&start, &stop].into_iter().filter(|end| !end.is_none());
+    let whole = given.map(|end| Ok(index_of(end)?.is_some())).collect::<PyResult<Vec<bool>>>()?;
+    let (from_s, to_s) = if whole.contains(&true) {
+        if whole.contains(&false) {
+            let expected = "two samples, or two times such as \"2 s\"";
+            return Err(of_argument(py, "slice", expected, "a sample and a time"));
+        }
+        let range = slice.indices(samples.len() as isize)?;
+        let (first, end) = (range.start.max(0) as usize, range.stop.max(0) as usize);
+        let ends =
+            end.checked_sub(1).and_then(|last| Some((times_s.get(first)?, times_s.get(last)?)));
+        match ends.filter(|(from_s, to_s)| from_s < to_s) {
+            Some((from_s, to_s)) => (*from_s, *to_s),
+            None => {
+                let found = format!("{}", slice.repr()?);
+                return Err(of_argument(py, "slice", "two samples or more", &found));
+            }
+        }
+    } else {
+        let end = |value: &Bound<'_, PyAny>, or: f64| match value.is_none() {
+            true => Ok(or),
+            false => quantity("time", value, Dimension::Time, true),
+        };
+        (end(&start, 0.0)?, end(&stop, samples.duration_s())?)
+    };
+    processed(py, motion, "time", &[format!("trim {from_s:?} s {to_s:?} s")])
+}
+
+/// The acceleration along x at a time, along the straight lines; at a jump the limit from the right.
+pub(crate) fn at(py: Python<'_>, samples: &GroundMotion, time: &Bound<'_, PyAny>) -> PyResult<f64> {
+    let at_s = quantity("time", time, Dimension::Time, true)?;
     if !(0.0 <= at_s && at_s <= samples.duration_s()) {
         let expected = format!("a time from 0 to {} s", samples.duration_s());
         return Err(of_argument(py, "time", &expected, &at_s.to_string()));
     }
     let (times_s, values) = (samples.times_s(), samples.horizontal_m_per_s2());
-    // At a jump the limit from the right.
     let after = times_s.partition_point(|t| *t <= at_s);
-    let value = match (values.get(after.wrapping_sub(1)), values.get(after)) {
+    Ok(match (values.get(after.wrapping_sub(1)), values.get(after)) {
         (Some(last), None) => *last,
         (Some(before), Some(next)) => {
             let (t0, t1) = (times_s[after - 1], times_s[after]);
             before + (next - before) * ((at_s - t0) / (t1 - t0))
         }
         (None, _) => values.first().copied().unwrap_or(f64::NAN),
-    };
-    Ok(PyFloat::new(py, value).into_any())
+    })
+}
+
+/// The samples of a motion of one component, which alone are one array.
+pub(crate) fn array<'py>(py: Python<'py>, motion: &Motion) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let samples = alone(py, "array", &motion.0.loaded.motion)?;
+    if samples.vertical_m_per_s2().is_some() {
+        let expected = "a motion without a vertical component: one of its components";
+        return Err(of_argument(py, "array", expected, "one with"));
+    }
+    Ok(samples.horizontal_m_per_s2().to_vec().into_pyarray(py))
 }
 
 /// Velocity or displacement from rest, in SI.

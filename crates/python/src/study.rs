@@ -10,13 +10,17 @@ use slipstick::input::dimension_of;
 use slipstick::input::plan::Plan;
 use slipstick::notice::Notice;
 use slipstick::study::engine::Engine;
-use slipstick::study::{Record, Study as Runs};
+use slipstick::study::{DesignScale, Record, Study as Runs};
 use slipstick::table::{self, Cells};
-use slipstick_files::{OpenStudy, Shard, StudyError, clear, conclude, expand, read_table};
+use slipstick::units::Dimension;
+use slipstick_files::{
+    FileError, OpenStudy, Shard, StudyError, clear, conclude, expand, read_table,
+};
 
-use crate::errors::{of_argument, of_input, of_refuted, of_study};
+use crate::errors::{of_argument, of_choice, of_file, of_input, of_refuted, of_study};
 use crate::model::Model;
 use crate::motion::Motion;
+use crate::requests::level_measure;
 use crate::table::Table;
 use crate::values::{plain, quantity};
 use crate::work::followed;
@@ -53,39 +57,83 @@ fn rename(table: &mut table::Table, names: &[(String, String)]) {
     }
 }
 
-/// Numbers in SI at a path, of each design one.
-fn numbers(path: &str, values: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+/// Numbers in SI, each of a list alone or with its unit; where one is none, its row is said.
+fn numbers(
+    name: &str,
+    values: &Bound<'_, PyAny>,
+    dimension: Option<Dimension>,
+) -> PyResult<Vec<f64>> {
     let py = values.py();
-    let dimension = dimension_of(path).map_err(|error| of_input(py, &error))?;
-    values
-        .try_iter()?
-        .map(|value| {
-            let value = value?;
-            match dimension {
-                Some(dimension) => quantity(path, &value, dimension, true),
-                None => {
-                    let number = plain(path, &value)?.and_then(|plain| plain.extract().ok());
-                    number.ok_or_else(|| of_argument(py, path, "numbers", &value.to_string()))
-                }
+    let number = |(row, value): (usize, PyResult<Bound<'_, PyAny>>)| {
+        let value = value?;
+        let number = match dimension {
+            Some(dimension) => quantity(name, &value, dimension, true)?,
+            None => {
+                let number = plain(name, &value)?.and_then(|plain| plain.extract::<f64>().ok());
+                number.ok_or_else(|| of_argument(py, name, "numbers", &value.to_string()))?
             }
-        })
-        .collect()
+        };
+        if number.is_finite() {
+            return Ok(number);
+        }
+        let found = format!("{number} in row {row}");
+        Err(of_argument(py, name, "finite numbers", &found))
+    };
+    values.try_iter()?.enumerate().map(number).collect()
+}
+
+/// Numbers in SI of values that are in a unit of SI where they are bare; what has none is without a unit.
+#[pyfunction]
+pub(crate) fn numbers_in(name: &str, values: &Bound<'_, PyAny>, unit: &str) -> PyResult<Vec<f64>> {
+    let of = |dimension: &Dimension| !unit.is_empty() && dimension.si_unit() == unit;
+    numbers(name, values, Dimension::ALL.into_iter().find(of))
+}
+
+/// The scale of each design's records, where one is given: factors, or levels of a measure.
+fn scale_of_designs(
+    py: Python<'_>,
+    scale: Option<&Bound<'_, PyAny>>,
+    measure: Option<&str>,
+    levels: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Option<DesignScale>> {
+    match (scale, levels) {
+        (Some(_), Some(_)) => Err(of_argument(py, "scale", "a scale or levels", "both")),
+        (_, None) if measure.is_some() => {
+            let found = measure.unwrap_or_default();
+            Err(of_argument(py, "measure", "levels beside it", &format!("{found:?}")))
+        }
+        (Some(scale), None) => Ok(Some(DesignScale::Factors(numbers("scale", scale, None)?))),
+        (None, Some(levels)) => {
+            let measure = level_measure(py, measure.unwrap_or("PGA"))?;
+            let levels = numbers_in("levels", levels, measure.unit())?;
+            Ok(Some(DesignScale::Levels(measure, levels)))
+        }
+        (None, None) => Ok(None),
+    }
 }
 
 /// Demands of designs, each on all records: one row a run, records the slowest.
 #[pyfunction]
-#[pyo3(signature = (model, records, designs, *, one_of = None, jobs = None, progress = None))]
+#[pyo3(signature = (
+    model, records, designs, *, scale = None, measure = None, levels = None, one_of = None, jobs = None,
+    progress = None
+))]
+#[expect(clippy::too_many_arguments, reason = "the package calls it")]
 pub(crate) fn demands(
     py: Python<'_>,
     model: &Model,
     records: Vec<(String, Motion)>,
     designs: Vec<(String, Bound<'_, PyAny>)>,
+    scale: Option<&Bound<'_, PyAny>>,
+    measure: Option<&str>,
+    levels: Option<&Bound<'_, PyAny>>,
     one_of: Option<usize>,
     jobs: Option<i64>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Table> {
     let read = |(path, values): (String, Bound<'_, PyAny>)| {
-        let values = numbers(&path, &values)?;
+        let dimension = dimension_of(&path).map_err(|error| of_input(py, &error))?;
+        let values = numbers(&path, &values, dimension)?;
         Ok((path, values))
     };
     let paths: Vec<(String, Vec<f64>)> = designs.into_iter().map(read).collect::<PyResult<_>>()?;
@@ -96,6 +144,7 @@ pub(crate) fn demands(
             return Err(of_argument(py, path, &expected, &values.len().to_string()));
         }
     }
+    let scale = scale_of_designs(py, scale, measure, levels)?;
     let mut plan = Plan::listed(&paths, !records.is_empty()).map_err(|e| of_input(py, &e))?;
     plan.bound = model.analysis.friction_bounds.map(|_| "nominal");
     let record = |(name, Motion(read)): (String, Motion)| Record::read(name, read.loaded, None);
@@ -103,15 +152,23 @@ pub(crate) fn demands(
     let study = Runs::new(&plan, &model.source, model.text(), records);
     let study = study.map_err(|error| of_input(py, &error))?;
     let done = followed(py, jobs, progress, |engine| {
+        let study = match scale {
+            Some(scale) => match study.scaled_by_design(scale) {
+                Ok(study) => study,
+                Err(error) => return Ok(Err(error)),
+            },
+            None => study,
+        };
         engine.plan(study.runs());
         let rows = study.rows(0..study.runs(), engine)?;
         let refuted = one_of.map(|one_of| study.refuted(&rows, one_of, engine)).transpose()?;
-        Ok::<_, Stopped>((study.table(&rows), refuted.flatten()))
+        Ok::<_, Stopped>(Ok((study.table(&rows), refuted.flatten())))
     })?;
     match done {
         Err(Stopped) => Err(PyKeyboardInterrupt::new_err(())),
-        Ok((_, Some((run, what)))) => Err(of_refuted(py, run, &what)),
-        Ok((table, None)) => Ok(Table(table)),
+        Ok(Err(error)) => Err(of_choice(py, &error)),
+        Ok(Ok((_, Some((run, what))))) => Err(of_refuted(py, run, &what)),
+        Ok(Ok((table, None))) => Ok(Table(table)),
     }
 }
 
@@ -172,4 +229,19 @@ pub(crate) fn study(
     let (table, summary) = tables.unzip();
     let new = |table: Option<_>| table.map(|table| Py::new(py, Table(table))).transpose();
     Ok(Study { table: new(table)?, summary: new(summary)?, runs, failures, notices })
+}
+
+/// Reads what a concluded study has in its folder: its runs, its summary, how many there are and have no answer.
+#[pyfunction]
+pub(crate) fn read_study(py: Python<'_>, folder: PathBuf) -> PyResult<Study> {
+    let read = py.detach(|| {
+        let summary = read_table(&[folder.join("summary.csv")])?.table;
+        Ok::<_, FileError>((read_table(&expand(&folder, PARTS)?)?.table, summary))
+    });
+    let (table, summary) = read.map_err(|error| of_file(py, &error))?;
+    let runs = table.rows() as u64;
+    let status = table.texts_of("status").unwrap_or_default();
+    let failures = status.iter().filter(|status| *status != "ok").count() as u64;
+    let [table, summary] = [table, summary].map(|table| Py::new(py, Table(table)));
+    Ok(Study { table: Some(table?), summary: Some(summary?), runs, failures, notices: Vec::new() })
 }

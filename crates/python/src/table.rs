@@ -1,5 +1,7 @@
 //! `Table`: columns that every library of data frames takes.
 
+use std::borrow::Cow;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
@@ -11,8 +13,11 @@ use numpy::{IntoPyArray, PyReadonlyArray1};
 use pyo3::exceptions::{PyKeyError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyDict, PyList};
+use slipstick::error::similar;
 use slipstick::table::{self, Cells, Column};
-use slipstick_files::to_csv;
+use slipstick_files::{read_table, to_csv, to_parquet, write_whole};
+
+use crate::errors::{of_argument, of_file};
 
 /// Columns as the package wraps them.
 #[pyclass(module = "slipstick._core", frozen)]
@@ -20,6 +25,19 @@ pub struct Table(pub(crate) table::Table);
 
 /// A column as it is pickled: name, unit, kind, cells.
 type Parts<'py> = (String, String, &'static str, Bound<'py, PyAny>);
+
+/// A unit as every library of units reads it: `m/s²` is in none an `s2`.
+fn legible(unit: &str) -> Cow<'_, str> {
+    let is_power = |at: usize| unit[..at].ends_with(|c: char| c.is_ascii_alphabetic());
+    let powers = [("2", "²"), ("3", "³"), ("4", "⁴")];
+    let place = powers.iter().find_map(|(digit, power)| {
+        unit.find(digit).filter(|at| is_power(*at)).map(|at| (at, *power))
+    });
+    match place {
+        Some((at, power)) => format!("{}{power}{}", &unit[..at], &unit[at + 1..]).into(),
+        None => unit.into(),
+    }
+}
 
 /// A column as Arrow has it; its unit stands in the field's metadata under `unit`.
 fn arrow_column(column: &Column) -> (Field, ArrayRef) {
@@ -41,7 +59,7 @@ fn arrow_column(column: &Column) -> (Field, ArrayRef) {
     let field = Field::new(&column.name, kind, true);
     let field = match column.unit.as_str() {
         "" => field,
-        unit => field.with_metadata([("unit".to_owned(), unit.to_owned())]),
+        unit => field.with_metadata([("unit".to_owned(), legible(unit).into_owned())]),
     };
     (field, array)
 }
@@ -63,7 +81,7 @@ impl Table {
     fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let units = PyDict::new(py);
         for column in self.0.columns.iter().filter(|column| !column.unit.is_empty()) {
-            units.set_item(&column.name, &column.unit)?;
+            units.set_item(&column.name, legible(&column.unit))?;
         }
         Ok(units)
     }
@@ -75,7 +93,12 @@ impl Table {
     /// A column: an array of doubles where it holds numbers, else a list.
     fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let column = self.0.columns.iter().find(|column| column.name == name);
-        let column = column.ok_or_else(|| PyKeyError::new_err(name.to_owned()))?;
+        let column = column.ok_or_else(|| {
+            let names = self.0.columns.iter().map(|column| column.name.as_str());
+            let hint = similar(name, names).map(|near| format!("; nearest is {near:?}"));
+            let hint = hint.unwrap_or_default();
+            PyKeyError::new_err(format!("expected a column of the table, found {name:?}{hint}"))
+        })?;
         Ok(match &column.cells {
             Cells::Numbers(cells) => cells.clone().into_pyarray(py).into_any(),
             Cells::Counts(cells) => PyList::new(py, cells)?.into_any(),
@@ -87,6 +110,32 @@ impl Table {
     /// Write the table as the text of a CSV file.
     fn to_csv(&self) -> String {
         to_csv(&self.0)
+    }
+
+    /// Write the table as a file, CSV or Parquet by the end of its name.
+    fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        let written = match ending.as_deref() {
+            Some("csv") => write_whole(&path, to_csv(&self.0).as_bytes()),
+            Some("parquet") => to_parquet(&path, &self.0).and_then(|of| write_whole(&path, &of)),
+            _ => {
+                let found = path.display().to_string();
+                return Err(of_argument(
+                    py,
+                    "path",
+                    "a name that ends in .csv or .parquet",
+                    &found,
+                ));
+            }
+        };
+        written.map_err(|error| of_file(py, &error))
+    }
+
+    /// Read a table in CSV or Parquet.
+    #[staticmethod]
+    fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        let read = py.detach(|| read_table(&[path]));
+        read.map(|read| Self(read.table)).map_err(|error| of_file(py, &error))
     }
 
     /// The table as a stream of Arrow's C interface.

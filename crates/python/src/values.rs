@@ -3,6 +3,7 @@
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyFloat, PyInt, PyString};
+use slipstick::input::unit_of_bare;
 use slipstick::record::{Quantity, Units};
 use slipstick::units::{Dimension, parse_quantity, parse_unit};
 
@@ -53,7 +54,7 @@ pub(crate) fn as_plain<'py>(
     plain(path, value)
 }
 
-/// A value as a person writes it.
+/// The value at a path of a model as a person writes it: a bare number of what has a dimension is in SI.
 pub(crate) fn written(path: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
     let Some(plain) = plain(path, value)? else {
         let found = value.get_type().name()?.to_string();
@@ -63,7 +64,9 @@ pub(crate) fn written(path: &str, value: &Bound<'_, PyAny>) -> PyResult<String> 
     if plain.is_instance_of::<PyBool>() {
         return Ok(if plain.extract()? { "true" } else { "false" }.to_owned());
     }
-    Ok(plain.str()?.to_string())
+    let text = plain.str()?.to_string();
+    let unit = if plain.is_instance_of::<PyString>() { "" } else { unit_of_bare(path) };
+    Ok(if unit.is_empty() { text } else { format!("{text} {unit}") })
 }
 
 /// The short form of pint's units, as units are written here.
@@ -88,7 +91,7 @@ pub(crate) fn quantity(
         if plain.is_instance_of::<PyString>() {
             return quantity(name, &plain, dimension, number_in_si);
         }
-        if number_in_si {
+        if number_in_si && !plain.is_instance_of::<PyBool>() {
             return plain.extract();
         }
     }
@@ -164,4 +167,18 @@ pub(crate) fn accelerations(
 pub(crate) fn factor_of(value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let number = plain("factor", value)?.and_then(|plain| plain.extract::<f64>().ok());
     number.ok_or_else(|| of_argument(value.py(), "factor", "a number", &value.to_string()))
+}
+
+/// A channel by its name, or by its number from 1.
+pub(crate) fn channel_of(value: &Bound<'_, PyAny>) -> PyResult<String> {
+    let is_number = !value.is_instance_of::<PyBool>() && value.hasattr("__index__")?;
+    if is_number && value.extract::<u32>().is_ok_and(|number| number > 0) {
+        return Ok(value.call_method0("__index__")?.to_string());
+    }
+    value.extract().map_err(|_| {
+        let expected = "the name of a channel, or its number from 1";
+        let found =
+            value.repr().map_or_else(|_| "another value".to_owned(), |text| text.to_string());
+        of_argument(value.py(), "channel", expected, &found)
+    })
 }

@@ -2,11 +2,13 @@
 
 use std::cell::{Cell, RefCell};
 use std::ops::ControlFlow;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use slipstick::progress::Cancel;
 use slipstick::study::engine::Engine;
@@ -41,6 +43,51 @@ pub(crate) fn interruptible<T: Send>(
         let result = work(&go_on);
         raised.into_inner().map_or(Ok(result), Err)
     })
+}
+
+/// Samples of a motion from which work on it is worth a thread that can be left behind.
+const LONG: usize = 100_000;
+
+/// Does work on the samples of a motion while Python's other threads go on. Of a long one it has a thread of its own,
+/// which is left behind where a signal comes: then nobody reads what it finds, and it may ask whether to go on.
+pub(crate) fn on_samples<T: Send + 'static>(
+    py: Python<'_>,
+    samples: usize,
+    work: impl FnOnce(Cancel<'_>) -> T + Send + 'static,
+) -> PyResult<T> {
+    if samples < LONG {
+        return Ok(py.detach(|| work(&|| ControlFlow::Continue(()))));
+    }
+    let stop = Arc::new(AtomicBool::new(false));
+    let stopped = Arc::clone(&stop);
+    let (sender, receiver) = mpsc::channel();
+    thread::spawn(move || {
+        let go_on = || match stopped.load(Ordering::Relaxed) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        };
+        // Nobody waits any more where a signal came.
+        let _ = sender.send(work(&go_on));
+    });
+    py.detach(move || {
+        loop {
+            match receiver.recv_timeout(TURN) {
+                Ok(found) => return Ok(found),
+                Err(RecvTimeoutError::Timeout) => {
+                    if let Err(error) = Python::attach(|py| py.check_signals()) {
+                        stop.store(true, Ordering::Relaxed);
+                        return Err(error);
+                    }
+                }
+                Err(RecvTimeoutError::Disconnected) => return Err(ended_early()),
+            }
+        }
+    })
+}
+
+/// Work that has panicked.
+fn ended_early() -> PyErr {
+    PyRuntimeError::new_err("the work has ended early")
 }
 
 /// Does work on threads of its own, which end with it, while Python's other threads go on. Every now
@@ -102,9 +149,7 @@ pub(crate) fn followed<T: Send>(
                     Err(RecvTimeoutError::Timeout) => {}
                     Err(RecvTimeoutError::Disconnected) => {
                         // The work has panicked: the scope passes that on.
-                        return Err(raised.unwrap_or_else(|| {
-                            pyo3::exceptions::PyRuntimeError::new_err("the work has ended early")
-                        }));
+                        return Err(raised.unwrap_or_else(ended_early));
                     }
                 }
             }

@@ -44,19 +44,19 @@ def test_designs_in_units_and_columns() -> None:
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
-        ({"designs": {}}, "^designs: expected at least one path"),
-        ({"designs": {"slider.raduis": [1.0]}}, 'nearest is "slider.radius"'),
-        ({"designs": {"slider.radius": [1.0, 2.0], "slider.tilt": [0.0] * 3}}, "^slider.(radius|tilt): expected "),
-        ({"designs": {"slider.radius": []}}, "^slider.radius: expected "),
-        ({"designs": {"slider.radius": ["1 kg"]}}, "^slider.radius: expected a length"),
+        ({"vary": {}}, "^vary: expected at least one path"),
+        ({"vary": {"slider.raduis": [1.0]}}, 'nearest is "slider.radius"'),
+        ({"vary": {"slider.radius": [1.0, 2.0], "slider.tilt": [0.0] * 3}}, "^slider.(radius|tilt): expected "),
+        ({"vary": {"slider.radius": []}}, "^slider.radius: expected "),
+        ({"vary": {"slider.radius": ["1 kg"]}}, "^slider.radius: expected a length"),
         ({"columns": ["peak"]}, "^columns: expected columns among run, "),
         ({"check": 2.0}, "^check: expected a share"),
-        ({"motion": {}}, "^motion: expected at least one motion"),
+        ({"records": {}}, "^records: expected at least one motion"),
         ({"jobs": 0}, "^jobs: "),
     ],
 )
 def test_demands_that_cannot_be_are_told(arguments: dict[str, object], told: str) -> None:
-    given = {"motion": pulse(), "designs": {"slider.radius": [1.0, 2.0]}, **arguments}
+    given = {"records": pulse(), "vary": {"slider.radius": [1.0, 2.0]}, **arguments}
     with pytest.raises(ss.InputError, match=told):
         ss.demands(block(), **given)  # type: ignore[arg-type]
 

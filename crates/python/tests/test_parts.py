@@ -54,7 +54,8 @@ def test_parts_have_the_keys_of_the_schema() -> None:
 @pytest.mark.parametrize(
     ("call", "told"),
     [
-        (lambda: ss.Slider(radius=2.0), "^slider.radius: expected a length with its unit"),
+        (lambda: ss.Slider(radius="2"), "^slider.radius: expected a length with its unit"),
+        (lambda: ss.Slider(radius=True), "^slider.radius: expected a length with its unit"),
         (lambda: ss.Slider(radius="2 kg"), "^slider.radius: expected"),
         (lambda: ss.Storey(mass="1 m"), "^storey.mass: expected"),
         (lambda: ss.Sine(frequency="1 s"), "^motion.sine.frequency: expected"),

@@ -81,12 +81,12 @@ def test_all_numbers_of_the_model_are_derived_where_no_path_is_named() -> None:
         ({"paths": "slider.radius"}, "^paths: expected keys that stand in the model as one number"),
         ({"paths": "slider.raduis"}, 'nearest is "slider.radius"'),
         ({"paths": "block.mass", "demand": "slip_count"}, "^demand: expected a demand that is a number"),
-        ({"paths": "block.mass", "motions": {}}, "^motions: expected at least one motion"),
+        ({"paths": "block.mass", "records": {}}, "^records: expected at least one motion"),
     ],
 )
 def test_what_cannot_be_derived_is_told(arguments: dict[str, object], told: str) -> None:
     with pytest.raises(ss.InputError, match=told):
-        ss.sensitivity(**{"model": block(), "motions": pulse(), **arguments})  # type: ignore[arg-type]
+        ss.sensitivity(**{"model": block(), "records": pulse(), **arguments})  # type: ignore[arg-type]
 
 
 def test_json_of_the_answer_has_no_nan() -> None:

@@ -51,7 +51,7 @@ def test_spectra_are_those_of_the_command() -> None:
     assert list(found) == [name for name in told if name not in ("file", "channel")]
     for name in found:
         assert found[name].tolist() == [float(cell) for cell in told[name]]
-    assert found.units["sa_m_per_s2"] == "m/s2" and len(found.to_pandas()) == 400
+    assert found.units["sa_m_per_s2"] == "m/s²" and len(found.to_pandas()) == 400
     told = columns(command("record", "spectrum", TAFT, *TOLD, "--fourier"))
     found = taft().fourier()
     for name in found:
@@ -100,17 +100,44 @@ def test_what_cannot_be_done_is_told(call: object, told: str) -> None:
         call(taft())  # type: ignore[operator]
 
 
-def test_a_motion_is_indexed_by_time() -> None:
+def test_a_motion_is_indexed_by_sample_and_by_time() -> None:
     motion = ss.Motion([0.0, 1.0, 3.0, 0.0], dt=0.5, units="m/s2")
     assert (motion[0.5], motion["0.75 s"], motion[1.5]) == (1.0, 2.0, 0.0)
+    assert (motion[1], motion[-2], motion[np.int64(2)]) == (1.0, 3.0, 3.0)
+    assert (motion.at(1), motion.at("0.75 s"), motion.at(np.float64(0.5))) == (3.0, 2.0, 1.0)
+    for key in (4, -5, 10**30):
+        with pytest.raises(IndexError, match=f"^sample: expected a sample from 0 to 3 .*found {key}|found 9"):
+            motion[key]
     part = motion[0.5:]
     assert part.acceleration_m_per_s2.tolist() == [1.0, 3.0, 0.0] and part.time_s[0] == 0.0
+    assert motion[1:] == part and motion[1:4] == part and motion[:-1].acceleration_m_per_s2.tolist() == [0.0, 1.0, 3.0]
     jump = ss.Motion([0.0, 1.0, 3.0, 0.0], times_s=[0.0, 1.0, 1.0, 2.0], units="m/s2")
-    assert jump[1.0] == 3.0
-    with pytest.raises(TypeError):
-        list(motion)
+    assert jump[1.0] == 3.0 and [jump[i] for i in range(4)] == [0.0, 1.0, 3.0, 0.0]
+    assert jump[:2].acceleration_m_per_s2.tolist() == [0.0, 1.0] and jump[2:].acceleration_m_per_s2.tolist() == [3.0, 0.0]
+    for wrong, told in [
+        (lambda: motion[1:"1 s"], "^slice: expected two samples, or two times"),  # type: ignore[misc]
+        (lambda: motion[3:1], "^slice: expected two samples or more"),
+        (lambda: motion[::2], "^step: "),
+        (lambda: motion[True], "^time: "),
+        (lambda: motion.at("9 s"), "^time: expected a time from 0 to 1.5 s"),
+    ]:
+        with pytest.raises(ss.InputError, match=told):
+            wrong()
     assert motion.velocity_m_per_s.tolist() == [0.0, 0.25, 1.25, 2.0]
     assert motion.displacement_m[0] == 0.0
+
+
+def test_a_motion_is_an_array_of_its_samples() -> None:
+    motion = ss.Motion([0.0, 1.0, 3.0, 0.0], dt=0.5, units="m/s2")
+    array = np.asarray(motion)
+    assert array.dtype == np.float64 and array.tolist() == list(motion) == motion.acceleration_m_per_s2.tolist()
+    assert np.asarray(motion, dtype="f4").dtype == np.float32 and np.abs(motion).max() == 3.0
+    assert ss.Motion(motion, dt=0.5, units="m/s2") == motion
+    with pytest.raises(ss.InputError, match="^array: expected a motion in one direction"):
+        np.asarray(pair())
+    upwards = ss.Motion([0.0, 1.0], vertical=[0.0, 1.0], dt=0.5, units="m/s2")
+    with pytest.raises(ss.InputError, match="^array: expected a motion without a vertical component"):
+        list(upwards)
 
 
 @pytest.mark.parametrize("ending", ["csv", "AT2", "smc", "parquet"])
@@ -140,8 +167,11 @@ def test_all_channels_of_a_file(tmp_path: Path) -> None:
     path.write_text("time [s], a [g], b [g]\n0, 0, 1\n0.1, 1, 0\n0.2, 0, 0\n")
     found = ss.read_channels(path)
     assert [motion.pga_m_per_s2 for motion in found.values()] == [9.80665, 9.80665]
-    for name, motion in found.items():
-        assert motion == ss.read_record(path, channel=name)
+    for number, (name, motion) in enumerate(found.items(), 1):
+        assert motion == ss.read_record(path, channel=name) == ss.read_record(path, channel=number)
+    for wrong in (0, -1, True, 1.0):
+        with pytest.raises(ss.InputError, match="^channel: expected the name of a channel, or its number from 1"):
+            ss.read_record(path, channel=wrong)  # type: ignore[arg-type]
 
 
 def test_a_motion_is_brought_to_a_spectrum() -> None:

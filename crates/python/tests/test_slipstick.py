@@ -121,7 +121,7 @@ def test_inputs_that_cannot_be_are_told() -> None:
     with pytest.raises(ss.InputError) as caught:
         block().with_({"slider.radus": "2 m"})
     assert caught.value.nearest == "slider.radius"
-    for wrong in [{"block.mass": 325}, {"block.mass": True}, {"block.mass": [1]}, {}, {1: 2}]:
+    for wrong in [{"block.mass": "325"}, {"block.mass": True}, {"block.mass": [1]}, {}, {1: 2}]:
         with pytest.raises(ss.InputError):
             ss.Model(wrong)  # type: ignore[arg-type]
     with pytest.raises(FileNotFoundError, match="nowhere.toml"):
@@ -466,10 +466,11 @@ def test_keywords_are_the_fields_of_the_request() -> None:
     functions = [ss.run, ss.suite, ss.spectrum, ss.sensitivity, ss.ida, ss.fragility, ss.design, ss.compare]
     functions += [ss.identify.cyclic, ss.identify.free_vibration, ss.identify.shaking_table]
     what_goes_in = {"model", "models", "motion", "motions", "records", "second", "target", "source", "tests", "measured"}
+    what_goes_in |= {"levels", "exceeded", "runs", "capacities", "reached"}
     what_is_kept = {"history", "check"}
     for function in functions:
         keywords = inspect.signature(function).parameters
-        fields = {name: default for name, _, default, _ in _core.fields(function.__name__.replace("_", "-"))}
+        fields = {name: default for name, _, _, default, _ in _core.fields(function.__name__.replace("_", "-"))}
         beside = what_goes_in | what_is_kept | {"jobs", "progress"}
         assert set(keywords) - beside == set(fields), function
         # Defaults stand in the core alone.
@@ -626,7 +627,8 @@ def test_examples_of_the_extension_run() -> None:
     import slipstick._core as core
 
     objects = [core.Model, core.Motion]
-    methods = [getattr(core.Model, name) for name in ["with_", "to_opensees"]] + [core.Motion.rotated]
+    methods = [getattr(core.Model, name) for name in ["with_", "to_opensees", "from_modes"]]
+    methods += [core.Motion.rotated, core.Motion.at]
     finder, runner = doctest.DocTestFinder(recurse=False), doctest.DocTestRunner()
     for at in [*objects, *methods]:
         for test in finder.find(at, at.__name__, module=False, globs={}):

@@ -23,6 +23,7 @@ def test_errors_are_in_words_of_python(tmp_path: Path) -> None:
     bare.write_text("0.1\n0.2\n")
     columns.write_text("time_s,north_g,east_g\n0,0,1\n1,2,3\n")
     motions = {"a": pulse()}
+    in_two = ss.Motion([0.0, 0.2, -0.2, 0.0], y=[0.0, 0.1, -0.1, 0.0], dt=0.1, units="g")
     two = {"a": pulse(), "b": ss.Motion([0.0, 0.3, -0.2, 0.0], dt=0.4, units="g")}
     table = ss.ida(block(), two, scale_to="0.1..0.6 g:4", limit="9 mm").table
     levels = {"level": [0.1, 0.2, 0.3], "peak_sliding_displacement_m": [0.001, 0.002, 0.2]}
@@ -46,14 +47,35 @@ def test_errors_are_in_words_of_python(tmp_path: Path) -> None:
             ss.Plan(block(), {"quiet": pulse().scaled(0.0)}, measure="PGA", levels=["1 g"])),
         "^b: expected the other component of a, found the same motion$": lambda: ss.study(
             ss.Plan(block(), motions, second={"b": pulse()})),
-        "^records: expected motions by name, {name: motion}, found Motion$": lambda: ss.ida(
-            block(), pulse(), limit="9 mm"),  # type: ignore[arg-type]
-        "^records: expected motions by name, {name: motion}, found list$": lambda: ss.Plan(
-            block(), [pulse()]),  # type: ignore[arg-type]
-        "^records: expected a motion as 'a', found ndarray$": lambda: ss.suite(
+        r"^records: expected motions: .*, found the path 'a.txt' \(read_record or read_suite reads it\)$": lambda: ss.ida(
+            block(), "a.txt", limit="9 mm"),  # type: ignore[arg-type]
+        "^records: expected a motion in place 2, found the path": lambda: ss.Plan(
+            block(), [pulse(), Path("a.txt")]),  # type: ignore[list-item]
+        r"^records: expected a motion as 'a', found an array \(Motion\(array, ": lambda: ss.suite(
             block(), {"a": np.zeros(3)}),  # type: ignore[dict-item]
-        "^designs: expected arrays by path, {path: array}, found list$": lambda: ss.demands(
-            block(), pulse(), [1.0]),  # type: ignore[arg-type]
+        "^motion: expected motions: .*, found an array": lambda: ss.run(
+            block(), np.zeros(3)),  # type: ignore[call-overload]
+        "^vary: expected arrays by path, {path: array}, or a frame of designs, found list$": lambda: ss.demands(
+            block(), pulse(), [1.0]),
+        "^slider.radius: expected finite numbers, found NaN in row 1$": lambda: ss.demands(
+            block(), pulse(), {"slider.radius": [1.0, np.nan]}),
+        "^vary.slider.radius: expected finite numbers, found NaN in row 1$": lambda: ss.study(
+            ss.Plan(block(), motions, {"slider.radius": [1.0, np.nan]})),
+        "^over slider.radius: expected finite numbers, found NaN in row 1$": lambda: ss.spectrum(
+            block(), motions, {"slider.radius": [1.0, np.nan]}),
+        "^scale_to: expected finite numbers, found NaN in row 0$": lambda: ss.ida(block(), motions, scale_to=[np.nan, 1.0]),
+        r"^model: expected a Model, found the path 'a.toml' \(Model.read reads it\)$": lambda: ss.run(
+            "a.toml", pulse()),  # type: ignore[call-overload]
+        "^models 'a': expected a Model, found Motion$": lambda: ss.suite(
+            {"a": pulse()}, motions),  # type: ignore[dict-item]
+        "^motion: expected a motion, found the path 'a.txt'": lambda: block().to_opensees(
+            "a.txt", "10 kN/mm"),  # type: ignore[arg-type]
+        "^pairs: expected together, for slider.tilt_y is of motions in two directions, found \"separate\"$": lambda: ss.suite(
+            block().with_({"slider.tilt_y": 1e-3}), [in_two], pairs="separate"),
+        "^pairs: expected together, for slider.tilt_y is of": lambda: ss.study(
+            ss.Plan(block().with_({"slider.tilt_y": 1e-3}), [in_two], pairs="separate")),
+        "^samples: expected a number of samples beside distributions, found none$": lambda: ss.Plan(
+            block(), motions, {"slider.radius": {"uniform": [1.0, 2.0]}}),
     }
     for expected, call in calls.items():
         text = told(call)

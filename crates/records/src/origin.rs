@@ -13,6 +13,8 @@ pub struct Origin {
     pub component: Option<String>,
     /// Azimuth of the component, clockwise from north in degrees, where stated: a vertical one has none.
     pub azimuth_deg: Option<f64>,
+    /// Time of the first sample in ns since the start of 1970, UTC, where it came with one.
+    pub start_ns: Option<i64>,
     /// Of a motion in two horizontal directions what the file of the component along y says.
     pub along_y: Option<Box<Self>>,
 }
@@ -31,6 +33,7 @@ impl Origin {
             station: channel.station.clone(),
             component: channel.component.clone(),
             azimuth_deg: channel.azimuth_deg,
+            start_ns: None,
             along_y: None,
         }
     }
@@ -39,6 +42,14 @@ impl Origin {
     #[must_use]
     pub fn with_along_y(self, along_y: Self) -> Self {
         Self { along_y: Some(Box::new(along_y)), ..self }
+    }
+
+    /// The same of what is left where its first seconds are cut off.
+    #[must_use]
+    pub fn later_by(mut self, seconds: f64) -> Self {
+        self.along_y = self.along_y.map(|along_y| Box::new(along_y.later_by(seconds)));
+        let later = |start_ns: i64| start_ns.saturating_add((seconds * 1e9).round() as i64);
+        Self { start_ns: self.start_ns.map(later), ..self }
     }
 
     /// What tells that the motion is a vertical component: the component that its file states, else the

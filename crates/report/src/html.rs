@@ -164,13 +164,17 @@ pub(crate) fn figure_section(
     out.raw("</section>\n");
 }
 
-/// Figures with their captions, numbered from `first`.
+/// Figures with their captions, numbered from `first`; the first of a page is drawn for a phone besides.
 pub(crate) fn figure_list(out: &mut Markup, figures: &[Drawn], first: usize) {
     for (i, figure) in figures.iter().enumerate() {
-        out.raw("<figure")
-            .attribute("id", &figure.id)
-            .raw(">\n<div>\n")
+        let both = first + i == 1;
+        out.raw("<figure").attribute("id", &figure.id);
+        out.raw(if both { " class=\"both\">\n<div class=\"wide\">\n" } else { ">\n<div>\n" })
             .append(figure.svg.markup());
+        if both {
+            out.raw("</div>\n<div class=\"narrow\">\n")
+                .append(figure.figure.to_narrow_svg().markup());
+        }
         out.raw("</div>\n<figcaption><strong>")
             .text(format!("Figure {}.", first + i))
             .raw("</strong> ")

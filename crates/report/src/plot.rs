@@ -17,6 +17,9 @@ use crate::markup::Markup;
 /// Width of every figure in its own units; on A4 one of them is about a quarter of a millimetre.
 pub const WIDTH: f64 = 680.0;
 
+/// Width of a figure on a phone, in the same units: about one a pixel of its screen.
+pub const NARROW: f64 = 360.0;
+
 /// A finished drawing: one `<svg>` element.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Svg {
@@ -178,7 +181,18 @@ impl Figure {
     /// Draws it.
     #[must_use]
     pub fn to_svg(&self) -> Svg {
-        let (markup, height) = draw::figure(self);
+        self.drawn(WIDTH)
+    }
+
+    /// Draws it as narrow as a phone is, panels that stand beside each other below each other; what names it has
+    /// identifiers of its own, so that it may stand beside the other.
+    #[must_use]
+    pub fn to_narrow_svg(&self) -> Svg {
+        Self { id: format!("{}-narrow", self.id), ..self.clone() }.drawn(NARROW)
+    }
+
+    fn drawn(&self, width: f64) -> Svg {
+        let (markup, height) = draw::figure(self, width);
         Svg { markup, height }
     }
 }

@@ -4,6 +4,7 @@ mod page;
 
 pub use page::StudyReport;
 
+use slipstick::notice::{Notice, NoticeKind};
 use slipstick::response::DemandColumn;
 use slipstick::study::{LevelSummary, StudySummary};
 use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
@@ -15,16 +16,21 @@ use crate::laboratory::text::aligned;
 use crate::markup::shortened;
 use crate::number::{compact, count, rounded};
 
-/// What the runs warn of, a sentence a kind with the first run that does.
+/// What the runs give notice of, a line a kind with the first run that does, the gravest first.
 #[must_use]
-pub fn said(summary: &StudySummary) -> Vec<String> {
-    let of = |(kind, runs, first): &(String, u64, u64)| match runs {
-        1 => format!("run {first} gave the warning {kind}"),
-        _ => {
-            format!("{} runs gave the warning {kind}, the first of them run {first}", count(*runs))
-        }
+pub fn said(summary: &StudySummary) -> Vec<Notice> {
+    let of = |(kind, runs, first): &(String, u64, u64)| {
+        let known = NoticeKind::from_name(kind);
+        let what = if known.is_some() { String::new() } else { format!("{kind}: ") };
+        let message = match runs {
+            1 => format!("{what}run {first}"),
+            _ => format!("{what}{} runs, the first of them run {first}", count(*runs)),
+        };
+        Notice::new(known.unwrap_or(NoticeKind::Runs), message)
     };
-    summary.warned.iter().map(of).collect()
+    let mut all: Vec<Notice> = summary.warned.iter().map(of).collect();
+    Notice::sort(&mut all);
+    all
 }
 
 /// What the command prints: the demands that engineers ask for first, level by level.
@@ -213,6 +219,28 @@ mod tests {
         assert!(
             table.ends_with("\n2 runs failed and are left out: see the column status\n"),
             "{table}"
+        );
+    }
+
+    /// Every kind is one line under its own name and weight; what changes no decision stands last.
+    #[test]
+    fn notices_of_runs_are_a_line_a_kind() {
+        let warned =
+            [("first_sample_small", 42, 0), ("gap_exceeded", 1200, 3), ("flat_geometry", 1, 7)];
+        let warned = warned.map(|(kind, runs, first)| (kind.to_owned(), runs, first)).to_vec();
+        let (name, rows, names) = ("Tank".to_owned(), Vec::new(), Names::default());
+        let all = said(&StudySummary { name, measure: None, rows, names, warned });
+        let lines: Vec<String> = all
+            .iter()
+            .map(|notice| format!("{} {}: {}", notice.label(), notice.kind, notice.message))
+            .collect();
+        assert_eq!(
+            lines,
+            [
+                "Severe gap_exceeded: 1200 runs, the first of them run 3",
+                "Warning flat_geometry: run 7",
+                "Note first_sample_small: 42 runs, the first of them run 0",
+            ]
         );
     }
 }

@@ -280,8 +280,8 @@ impl Summary {
         }
     }
 
-    /// The warnings of all runs: those of the nominal run first, with `None`; then those of the
-    /// bounds that it does not share, with the name of the run.
+    /// The warnings of all runs, the gravest first; of one weight those of the nominal run, with `None`, before those
+    /// of the bounds that it does not share, with the name of the run.
     #[must_use]
     pub fn all_warnings(&self) -> Vec<(Option<&'static str>, &Notice)> {
         let mut all: Vec<_> = self.warnings.iter().map(|warning| (None, warning)).collect();
@@ -289,6 +289,7 @@ impl Summary {
             let own = run.warnings.iter().filter(|warning| !self.warnings.contains(warning));
             all.extend(own.map(|warning| (Some(name), warning)));
         }
+        all.sort_by_key(|(_, warning)| core::cmp::Reverse(warning.severity()));
         all
     }
 

@@ -1,8 +1,32 @@
-//! `history.csv` and `events.csv`.
+//! Tables as CSV; `history.csv` and `events.csv`.
 
 use std::io::{self, Write};
 
 use slipstick::response::{EventInPlane, Response};
+use slipstick::table::{Cells, Column, Table, to_cell};
+
+/// The table as CSV: a header, then rows ended by LF; numbers in the shortest digits that read back as
+/// the same, `inf` for +∞.
+#[must_use]
+pub fn to_csv(table: &Table) -> String {
+    let mut rows = csv::Writer::from_writer(Vec::new());
+    // Rows of one length into a vector of bytes cannot fail.
+    let _ =
+        rows.write_record(table.columns.iter().map(|column| to_cell(&column.name).into_owned()));
+    for row in 0..table.rows() {
+        let cell = |column: &Column| match &column.cells {
+            Cells::Texts(cells) => to_cell(&cells[row]).into_owned(),
+            Cells::Numbers(cells) if cells[row].is_nan() => String::new(),
+            // Adding 0 takes the sign off a zero.
+            Cells::Numbers(cells) => format!("{:?}", cells[row] + 0.0),
+            Cells::Counts(cells) => cells[row].map_or_else(String::new, |n| n.to_string()),
+            Cells::Flags(cells) => cells[row].map_or_else(String::new, |f| f.to_string()),
+        };
+        let _ = rows.write_record(table.columns.iter().map(cell));
+    }
+    let bytes = rows.into_inner().unwrap_or_default();
+    String::from_utf8(bytes).unwrap_or_default()
+}
 
 /// Writes the history: a header, then a row a sample with 17 significant digits, ended by LF.
 ///

@@ -18,12 +18,14 @@ use wasm_bindgen::JsValue;
 pub struct Failure {
     message: String,
     place: Option<(String, [usize; 2])>,
+    /// The path of a file that the model names and that is not there.
+    missing: Option<String>,
 }
 
 impl Failure {
     /// An error that says all in its message.
     pub fn of(error: impl Display) -> Self {
-        Self { message: error.to_string(), place: None }
+        Self { message: error.to_string(), place: None, missing: None }
     }
 
     /// An error that points into a text.
@@ -33,7 +35,14 @@ impl Failure {
         let place = &error.place;
         let known = !place.source_name.is_empty() && place.span.end <= text.len();
         let at = || (place.source_name.clone(), [units(place.span.start), units(place.span.end)]);
-        Self { message: error.to_string(), place: known.then(at) }
+        Self { message: error.to_string(), place: known.then(at), missing: None }
+    }
+}
+
+impl Failure {
+    /// The same, with the path of the file that is not there.
+    pub fn missing(self, path: &str) -> Self {
+        Self { missing: Some(path.to_owned()), ..self }
     }
 }
 
@@ -57,6 +66,9 @@ impl Failure {
 impl From<Failure> for JsValue {
     fn from(failure: Failure) -> Self {
         let place = failure.place.map(|(source, [start, end])| view! { source, start, end });
-        Self::from_str(&pretty(&view! { message: failure.message, #[serde(flatten)] place }))
+        let missing = failure.missing.map(|missing| view! { missing });
+        let said =
+            view! { message: failure.message, #[serde(flatten)] place, #[serde(flatten)] missing };
+        Self::from_str(&pretty(&said))
     }
 }

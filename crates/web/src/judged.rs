@@ -23,8 +23,7 @@ pub struct Judgement {
 
 #[wasm_bindgen]
 impl Judgement {
-    /// The model's text, the peaks with those of the bounds, the warnings, the certificate, the fixed base, the stepwise
-    /// method.
+    /// The peaks with those of the bounds, the warnings, the certificate, the fixed base, the stepwise method.
     #[must_use]
     pub fn state(&self) -> String {
         self.state.clone()
@@ -47,7 +46,6 @@ impl Judgement {
 impl Judgement {
     /// Gathers it.
     pub fn new(
-        text: &str,
         outcome: &Outcome,
         summary: &Summary,
         fixed: Option<Demands>,
@@ -73,7 +71,6 @@ impl Judgement {
         let fixed = fixed.as_ref().map(|fixed| fixed_base(fixed, nominal, display));
         let stepwise = stepwise.map(|found| beside_stepwise(found, &nominal.response, display));
         let state = view! {
-            text,
             rows: rows(summary, display),
             runs: each(summary.runs(), |(name, _)| name),
             warnings: warnings(summary, display),

@@ -100,7 +100,8 @@ impl Records {
         let options = Options { format: None, units: source.units, dt_s: source.dt_s };
         let missing = |key: &str, path: &str| {
             let expected = "the file of this record, dropped on the page";
-            Failure::input(&analysis.error_at(key, expected, format!("none named {path}")), text)
+            let error = analysis.error_at(key, expected, format!("none named {path}"));
+            Failure::input(&error, text).missing(path)
         };
         let horizontal = self
             .read(&source.path, &options)
@@ -152,12 +153,15 @@ impl Records {
 
 #[cfg(feature = "whole")]
 impl Records {
-    /// What is in a file: `{layout, plain, channels}`, plain where it needs no more to be a motion.
+    /// What is in a file: `{layout, plain, upright, channels}`, plain where it needs no more to be a motion, upright where
+    /// that motion is vertical.
     pub fn inspect(&mut self, name: &str, units: &str, dt: &str) -> Result<String, Failure> {
         let options = options(units, dt)?;
         let missing = || Failure::of(format!("{name}: expected a file, found none of this name"));
         let record = self.read(name, &options).ok_or_else(missing)?.map_err(Failure::of)?;
-        let plain = Loaded::recorded(Wanted { record, channel: None }, None).is_ok();
+        let loaded = Loaded::recorded(Wanted { record, channel: None }, None);
+        let plain = loaded.is_ok();
+        let upright = loaded.is_ok_and(|loaded| loaded.origin.vertical(name).is_some());
         let channels = each(record.channels.iter().enumerate(), |(i, channel)| {
             let alone = record.channels.iter().filter(|c| c.name == channel.name).count() == 1;
             let quantity = channel.units.quantity();
@@ -175,7 +179,7 @@ impl Records {
                 words: record.describe(channel),
             }
         });
-        Ok(pretty(&view! { layout: &record.layout, plain, channels }))
+        Ok(pretty(&view! { layout: &record.layout, plain, upright, channels }))
     }
 }
 

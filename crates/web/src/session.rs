@@ -128,7 +128,7 @@ impl Session {
         };
         let response = response.map_err(Failure::of)?;
         let name = job.analysis.name.clone().unwrap_or_else(|| UNNAMED.to_owned());
-        let words = loaded.description.join("; ");
+        let words = loaded.words(&loaded.name(job.analysis.motion.as_ref()));
         let summary = Summary::of_response(&name, &job, (model, 1.0), &response, None);
         let answer = Answer::new(&job, &words, &response, &summary, display, ground.number);
         #[cfg(feature = "whole")]

@@ -1,6 +1,6 @@
 //! Analyses over a suite and studies, laid out as the command lays them out.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -25,6 +25,7 @@ use slipstick_report::assessment::answer::Tabled;
 use slipstick_report::assessment::{Provenance, Sheet, answer};
 use slipstick_report::json::{each, pretty};
 use slipstick_report::study::StudyReport;
+use slipstick_report::tables::to_csv;
 use slipstick_report::{FileNote, InputText, report, view};
 use wasm_bindgen::prelude::*;
 
@@ -81,13 +82,7 @@ impl Page {
 }
 
 impl Page {
-    /// `exported` where the command calls what it is of otherwise.
-    fn new(
-        (sheet, exported): (&Sheet, Option<&Sheet>),
-        inputs: &[InputText<'_>],
-        files: &[FileNote<'_>],
-        again: &Again,
-    ) -> Self {
+    fn new(sheet: &Sheet, inputs: &[InputText<'_>], files: &[FileNote<'_>], again: &Again) -> Self {
         let first = sheet.first.as_ref().map(|(name, sentence)| format!("{name}: {sentence}"));
         let state = pretty(&view! {
             kind: sheet.kind,
@@ -103,12 +98,11 @@ impl Page {
             records: each(&again.records, |(path, text, file)| view! { path, text, file }),
         });
         let command_line = again.commands.last().map_or("", String::as_str);
-        let (provenance, out) =
-            (Provenance { command_line, files, inputs }, exported.unwrap_or(sheet));
+        let provenance = Provenance { command_line, files, inputs };
         Self {
             state,
-            html: out.to_html(&provenance),
-            json: out.to_json(),
+            html: sheet.to_html(&provenance),
+            json: sheet.to_json(),
             tables: again.tables.clone(),
         }
     }
@@ -194,7 +188,7 @@ impl<'a> Settings<'a> {
                     words.extend([format!("--{name}"), text.to_owned()]);
                 }
             } else {
-                words.push(kinds[i - 1].name().to_owned());
+                words.push(table_of(kinds[i - 1]));
             }
             for (name, text) in self.pairs() {
                 let Some(field) = kind.fields().iter().find(|field| field.name == name) else {
@@ -219,6 +213,11 @@ impl Asks<'_> {
     fn leaves_unsaid(&self) -> bool {
         ![self.units, self.dt, self.channel].concat().is_empty()
     }
+}
+
+/// The table that a command before another writes, by its path from where both are run.
+fn table_of(kind: Kind) -> String {
+    format!("{0}/{0}.csv", kind.name())
 }
 
 /// The requests that a tab makes, one after the other.
@@ -428,27 +427,36 @@ pub fn assess(
     let job = Job::new(records, text, options)?;
     let (of, answer) = followed(|engine| job.answer(kind, engine))?;
     let sheet = answer::sheet(&answer, display);
-    // The command fits a fragility to a folder, by whose name it calls it.
-    let exported = (kind == Kind::Fragility).then(|| {
-        let name = Kind::Ida.name().to_owned();
-        answer::sheet(&Answer { name, ..answer.clone() }, display)
+    // The command fits a fragility to the table that the one before it wrote, and reads nothing else.
+    let fitted = of.as_ref().and_then(|of| match &of.found {
+        Results::Ida { run, .. } => Some(crate::sha256(to_csv(&run.rows).as_bytes())),
+        _ => None,
     });
+    let kind_of_runs = answer::kind_of_runs(&answer);
     let tabled: Vec<Tabled> =
         of.into_iter().chain(core::iter::once(answer)).flat_map(answer::tables).collect();
-    let inputs = [InputText { path: MODEL, text }];
-    let sha256 = crate::sha256(text.as_bytes());
-    let mut files = vec![FileNote { path: MODEL, sha256: &sha256, description: "model" }];
-    files.extend(job.taken.iter().map(|taken| FileNote {
-        path: &taken.path,
-        sha256: &taken.sha256,
-        description: &taken.description,
-    }));
+    let own = [InputText { path: MODEL, text }];
+    let (model, table) = (crate::sha256(text.as_bytes()), table_of(Kind::Ida));
+    let (inputs, files) = match &fitted {
+        Some(sha256) => {
+            (&[][..], vec![FileNote { path: &table, sha256, description: kind_of_runs }])
+        }
+        None => {
+            let taken = job.taken.iter().map(|taken| FileNote {
+                path: &taken.path,
+                sha256: &taken.sha256,
+                description: &taken.description,
+            });
+            let model = FileNote { path: MODEL, sha256: &model, description: "model" };
+            (&own[..], core::iter::once(model).chain(taken).collect())
+        }
+    };
     let again = Again {
         commands: job.settings.commands(kind, display),
         records: job.taken.iter().map(RecordOfSuite::words).collect(),
         tables: runs::tables(&tabled, display),
     };
-    Ok(Page::new((&sheet, exported.as_ref()), &inputs, &files, &again))
+    Ok(Page::new(&sheet, inputs, &files, &again))
 }
 
 /// The records that were asked for, else the model's own motion; the files of either.
@@ -499,7 +507,7 @@ fn suite(
                 RecordOfSuite { path, file, text: None, sha256, description }
             })
             .collect();
-        read.push((loaded.description.join("; "), loaded));
+        read.push((loaded.name(analysis.motion.as_ref()), loaded));
     } else {
         // A record is called by the stem of its file, by its path where stems repeat.
         let stem = |path: &String| {
@@ -573,6 +581,32 @@ pub(crate) fn read<'a>(
 /// What errors call the plan's text.
 const PLAN: &str = "plan.toml";
 
+/// Numbers of a row before its demands: whether it has an answer, and its kinds of warnings.
+const AHEAD: usize = 1 + KINDS_WIDTH;
+
+/// Numbers that hold the kinds of warnings of a row, and how many kinds each holds.
+const KINDS_WIDTH: usize = NoticeKind::ALL.len().div_ceil(KINDS_EACH);
+const KINDS_EACH: usize = 48;
+
+/// Kinds of warnings as whole numbers, a binary digit a kind: a row of the page is of numbers alone.
+fn kinds_to_numbers(kinds: &[NoticeKind]) -> [f64; KINDS_WIDTH] {
+    let mut digits = [0_u64; KINDS_WIDTH];
+    for kind in kinds {
+        if let Some(place) = NoticeKind::ALL.iter().position(|one| one == kind) {
+            digits[place / KINDS_EACH] |= 1 << (place % KINDS_EACH);
+        }
+    }
+    digits.map(|digits| digits as f64)
+}
+
+/// The names of these kinds, joined by `;`.
+fn kinds_of_numbers(numbers: &[f64]) -> String {
+    let holds =
+        |place: usize| (numbers[place / KINDS_EACH] as u64 >> (place % KINDS_EACH)) & 1 == 1;
+    let kinds = NoticeKind::ALL.iter().enumerate().filter(|(place, _)| holds(*place));
+    kinds.map(|(_, kind)| kind.name()).collect::<Vec<_>>().join(";")
+}
+
 /// A dropped plan with its records, to be run in parts.
 pub struct Planned {
     plan: String,
@@ -582,6 +616,18 @@ pub struct Planned {
     study: Study,
     /// What was noticed of the records together.
     notices: Vec<String>,
+    /// Its records, as the command reads them.
+    files: Vec<PlanFile>,
+    /// The path of its model.
+    model: String,
+}
+
+/// A record of a plan: its path beside the plan, the file on the page, its hash.
+#[derive(Clone)]
+struct PlanFile {
+    path: String,
+    file: String,
+    sha256: String,
 }
 
 impl Planned {
@@ -592,9 +638,7 @@ impl Planned {
         text: &str,
         names: &[String],
     ) -> Result<Self, Failure> {
-        let (name, study, notices) = planned(records, plan, text, names)?;
-        let (plan, text, names) = (plan.to_owned(), text.to_owned(), names.to_vec());
-        Ok(Self { plan, text, names, name, study, notices })
+        planned(records, plan, text, names)
     }
 
     /// Whether it is of these.
@@ -608,11 +652,11 @@ impl Planned {
     }
 
     fn width(&self) -> usize {
-        1 + self.study.shape().columns().len()
+        AHEAD + self.study.shape().columns().len()
     }
 
-    /// Some runs, a row each: 1, or 0 where it has no answer, less the travel in m that it has used up, and its
-    /// demands.
+    /// Some runs, a row each: 1, or 0 where it has no answer, less the travel in m that it has used up, its kinds of
+    /// warnings, and its demands.
     pub fn rows(&self, from: u64, to: u64) -> Result<Vec<f64>, Failure> {
         let runs = from..to.min(self.study.runs());
         let rows = self.study.rows(runs, &Engine::unwatched()).map_err(Failure::of)?;
@@ -620,8 +664,9 @@ impl Planned {
         for row in &rows {
             let used_up_m = row.travel_used_up_m().unwrap_or(0.0);
             numbers.push(if row.error.is_none() { 1.0 } else { -used_up_m });
+            numbers.extend(kinds_to_numbers(&row.warnings));
             // Those by axis come after them, which no page shows.
-            numbers.extend(row.demands.iter().take(self.width() - 1));
+            numbers.extend(row.demands.iter().take(self.width() - AHEAD));
         }
         Ok(numbers)
     }
@@ -647,7 +692,7 @@ impl Planned {
             table.numbers(
                 &column.name(),
                 column.unit(),
-                rows.iter().map(|row| row[1 + i]).collect(),
+                rows.iter().map(|row| row[AHEAD + i]).collect(),
             );
         }
         Tabled { name: "runs", forms: &[], table }
@@ -659,8 +704,12 @@ impl Planned {
         let case = self.study.case(run.min(self.study.runs().saturating_sub(1)));
         let set =
             self.study.overrides(&case).map_err(|error| Failure::input(&error, &self.text))?;
+        let file = |path: &String| {
+            let known = self.files.iter().find(|file| file.path == *path);
+            known.map_or_else(|| path.clone(), |file| file.file.clone())
+        };
         Ok(pretty(&view! {
-            record: self.study.records().get(case.record).map(|record| &record.name),
+            record: self.study.records().get(case.record).map(|record| file(&record.name)),
             scale: case.scale,
             friction: self.study.bound(&case).name,
             set: each(&set, |text| {
@@ -682,7 +731,7 @@ impl Planned {
             Ok::<(), slipstick::error::Stopped>(())
         };
         let demand = |column: usize, take: Take<'_, f64>| {
-            runs().for_each(|(run, row)| take(run, row[1 + column]));
+            runs().for_each(|(run, row)| take(run, row[AHEAD + column]));
             Ok(())
         };
         let travel_used_up = |take: Take<'_, f64>| {
@@ -690,8 +739,10 @@ impl Planned {
             runs().for_each(|(run, row)| take(run, used_up(row[0])));
             Ok(())
         };
-        // The page keeps the numbers of rows alone.
-        let warnings = |_: &mut dyn FnMut(u64, &str)| Ok(());
+        let warnings = |take: &mut dyn FnMut(u64, &str)| {
+            runs().for_each(|(run, row)| take(run, &kinds_of_numbers(&row[1..AHEAD])));
+            Ok(())
+        };
         let passes = Rows {
             solved: &solved,
             demand: &demand,
@@ -708,13 +759,18 @@ impl Planned {
         };
         let inputs = [
             InputText { path: PLAN, text: &self.plan },
-            InputText { path: MODEL, text: &self.text },
+            InputText { path: &self.model, text: &self.text },
         ];
         let command = ["study", PLAN, "--report", "--out", "out"].map(str::to_owned);
         let commands = vec![report::command_line(command)];
         let tables = runs::tables(&[self.table(rows)], display);
-        let again = Again { commands, records: Vec::new(), tables };
-        Ok(Page::new((&study.sheet(), None), &inputs, &[], &again))
+        let of = |file: &PlanFile| (file.path.clone(), None, file.file.clone());
+        let again = Again { commands, records: self.files.iter().map(of).collect(), tables };
+        let [plan, model] = [&self.plan, &self.text].map(|text| crate::sha256(text.as_bytes()));
+        let note = |path, sha256, description| FileNote { path, sha256, description };
+        let mut files = vec![note(PLAN, &plan[..], "plan"), note(&self.model, &model, "model")];
+        files.extend(self.files.iter().map(|file| note(&file.path, &file.sha256, "record")));
+        Ok(Page::new(&study.sheet(), &inputs, &files, &again))
     }
 }
 
@@ -723,19 +779,21 @@ fn planned(
     plan_text: &str,
     text: &str,
     names: &[String],
-) -> Result<(String, Study, Vec<String>), Failure> {
+) -> Result<Planned, Failure> {
     let in_plan = |error| Failure::input(&error, plan_text);
     let plan = Plan::parse(PLAN, plan_text).map_err(in_plan)?;
-    let (mut suite, mut notices) = (Vec::new(), Vec::new());
+    let (mut suite, mut notices, mut sources) = (Vec::new(), Vec::new(), Vec::new());
     if let Some(wanted) = &plan.records {
         let named = |key: &str, patterns: &[String]| {
-            let of = |pattern: &String| {
-                let mut all: Vec<String> =
-                    names.iter().filter(|name| matches(pattern, name)).cloned().collect();
-                all.sort();
-                all
+            // In the folder of their pattern, in the order of their paths there.
+            let of = |pattern: &String| -> Vec<(String, String)> {
+                let folder = folder_of(pattern);
+                let path = |name: &String| format!("{folder}{}", last_part(name));
+                let all = names.iter().filter(|name| matches(pattern, name));
+                let all: BTreeMap<_, _> = all.map(|name| (path(name), name.clone())).collect();
+                all.into_iter().collect()
             };
-            let found: Vec<Vec<String>> = patterns.iter().map(of).collect();
+            let found: Vec<Vec<(String, String)>> = patterns.iter().map(of).collect();
             let missing = patterns.iter().zip(&found).filter(|(_, all)| all.is_empty());
             let missing: Vec<String> = missing.map(|(pattern, _)| format!("{pattern:?}")).collect();
             if missing.is_empty() {
@@ -757,12 +815,19 @@ fn planned(
         plan.one_each(("vertical", "vertical motion"), vertical.len(), count).map_err(in_plan)?;
         let mut read = Vec::new();
         for (i, first) in files.iter().enumerate() {
-            let up = vertical.get(i).map(|up| (up.as_str(), wanted.vertical_scale.unwrap_or(1.0)));
-            for name in core::iter::once(first).chain(second.get(i)) {
+            let factor = wanted.vertical_scale.unwrap_or(1.0);
+            let up = vertical.get(i).map(|(_, up)| (up.as_str(), factor));
+            for (path, name) in core::iter::once(first).chain(second.get(i)) {
                 let options = Options { format: None, units: wanted.units, dt_s: wanted.dt_s };
                 let channel = wanted.channel.as_deref();
+                for (path, file) in
+                    core::iter::once((path, name)).chain(vertical.get(i).map(|(p, n)| (p, n)))
+                {
+                    let sha256 = records.bytes(file).map_or_else(String::new, crate::sha256);
+                    sources.push(PlanFile { path: path.clone(), file: file.clone(), sha256 });
+                }
                 let pair = (!second.is_empty()).then_some(i);
-                read.push((name, recorded(records, name, &options, (channel, up))?, pair));
+                read.push((path, recorded(records, name, &options, (channel, up))?, pair));
             }
         }
         let of = read.iter().map(|(name, loaded, _)| (*name, loaded));
@@ -781,13 +846,35 @@ fn planned(
         let expected = format!("at most {MOST_RUNS} runs on the page: use slipstick study");
         return Err(in_plan(plan.error_at("sampling.count", expected, runs.to_string())));
     }
-    Ok((plan.name.unwrap_or_else(|| "Study".to_owned()), study, notices))
+    let model = plan.model.replace('\\', "/");
+    Ok(Planned {
+        plan: plan_text.to_owned(),
+        text: text.to_owned(),
+        names: names.to_vec(),
+        name: plan.name.unwrap_or_else(|| "plan".to_owned()),
+        study,
+        notices,
+        files: sources,
+        model,
+    })
+}
+
+/// The folder of a pattern, with its line; none where it is a pattern itself or leads out of the plan's folder.
+fn folder_of(pattern: &str) -> &str {
+    let folder = pattern.strip_suffix(last_part(pattern)).unwrap_or("");
+    let inside = !folder.starts_with('/') && !folder.contains(['*', '?', '[', '\\', ':']);
+    if inside && !folder.split('/').any(|part| part == "..") { folder } else { "" }
+}
+
+/// The name of a file without its folders.
+fn last_part(path: &str) -> &str {
+    path.rsplit(['/', '\\']).next().unwrap_or("")
 }
 
 /// Whether a pattern of a plan names a file: `*` stands for any part of its name; folders are not looked
 /// at, for files on the page have none.
 fn matches(pattern: &str, name: &str) -> bool {
-    let last = |path: &str| path.rsplit(['/', '\\']).next().unwrap_or("").to_lowercase();
+    let last = |path: &str| last_part(path).to_lowercase();
     let (pattern, name) = (last(pattern), last(name));
     let mut parts = pattern.split('*');
     let Some(mut rest) = name.strip_prefix(parts.next().unwrap_or("")) else { return false };

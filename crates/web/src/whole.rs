@@ -32,8 +32,18 @@ impl Session {
         Ok(self.records.inspect(name, units, dt)?)
     }
 
-    /// Judges the last answer and says its model's text with the keys set, comments kept; with lower- and upper-bound friction, the same structure on a fixed base
-    /// and, where asked for, the paper's stepwise method.
+    /// The model's text of the last answer with the keys set, comments kept.
+    ///
+    /// # Errors
+    /// Where nothing was analysed.
+    pub fn text(&self) -> Result<String, JsValue> {
+        let last = self.last.as_ref().ok_or_else(|| Failure::of("nothing was analysed"))?;
+        let text = input::with_keys(MODEL, &last.text, &last.set);
+        Ok(text.map_err(|error| Failure::input(&error, &last.text))?)
+    }
+
+    /// Judges the last answer, with lower- and upper-bound friction, the same structure on a fixed base and, where
+    /// asked for, the paper's stepwise method.
     ///
     /// # Errors
     /// Where nothing was analysed, or a bound cannot be solved.
@@ -41,8 +51,6 @@ impl Session {
         let last = self.last.as_mut().ok_or_else(|| Failure::of("nothing was analysed"))?;
         let outcome = last.job.run_on(last.response.clone(), false).map_err(Failure::of)?;
         let summary = Summary::of(&last.name, &last.job, &outcome);
-        let text = input::with_keys(MODEL, &last.text, &last.set)
-            .map_err(|error| Failure::input(&error, &last.text))?;
         let model = &last.job.analysis.model;
         let fixed = (model.storeys() > 0).then(|| {
             let model = fixed_base(model).ok()?;
@@ -50,8 +58,7 @@ impl Session {
             solver::exact_demands(&model, &motion).ok().map(|response| response.demands)
         });
         let stepwise = stepwise.then(|| solver::stepwise(model, &last.job.motion));
-        let judgement =
-            Judgement::new(&text, &outcome, &summary, fixed.flatten(), stepwise, last.display);
+        let judgement = Judgement::new(&outcome, &summary, fixed.flatten(), stepwise, last.display);
         last.judged = Some((outcome, summary));
         Ok(judgement)
     }
@@ -181,7 +188,8 @@ impl Session {
         Ok(self.planned(plan, text, &names)?.size().to_vec())
     }
 
-    /// Some runs of a study, a row each: 1, or 0 where it has no answer, and its demands in SI.
+    /// Some runs of a study, a row each: 1, or 0 where it has no answer, its kinds of warnings in two numbers, and its
+    /// demands in SI.
     ///
     /// # Errors
     /// As [`Session::study_size`].

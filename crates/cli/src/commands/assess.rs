@@ -7,12 +7,13 @@ use std::time::Duration;
 
 use slipstick::assessment::AssessmentError;
 use slipstick::hash::sha256_hex;
-use slipstick::requests::{Curves, Results, Runs};
+use slipstick::requests::Runs;
 use slipstick::study::engine::Engine;
 use slipstick_files::{
-    InputFiles, KeptFile, ReadTable, files_of_runs, limit_of_ida, on_threads, read_bytes, read_csv,
-    read_runs, read_table, reading_time, time_left,
+    InputFiles, KeptFile, ReadTable, files_of_runs, limit_of_ida, model_of_runs, on_threads,
+    read_bytes, read_csv, read_runs, read_table, reading_time, time_left,
 };
+use slipstick_report::assessment::answer::kind_of_runs;
 use slipstick_report::number::count;
 
 use crate::args::{AssessArgs, FragilityArgs};
@@ -81,8 +82,9 @@ pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
     let quiet = args.result.quiet;
     let estimate = || reading_left(&args.source);
     let (mut inputs, read) = estimated("reading", quiet, &estimate, || read(&args.source))?;
+    let name = model_of_runs(&args.source).unwrap_or_else(|| args.source.display().to_string());
     let runs = Runs {
-        name: &args.source.display().to_string(),
+        name: &name,
         source: &read.path.display().to_string(),
         table: &read.table,
         limit: limit_of_ida(&args.source, asked.demand()),
@@ -93,10 +95,8 @@ pub fn fragility(args: &FragilityArgs) -> Result<ExitCode, Failure> {
         AssessmentError::Cell(error) => Failure::from(read.cell_error(&error)),
         other => other.into(),
     })?;
-    if let Results::Fragility { curves: Curves::One(run), .. } = &answer.found
-        && let Some((.., kind)) = inputs.files.first_mut()
-    {
-        run.kind.name().clone_into(kind);
+    if let Some((.., kind)) = inputs.files.first_mut() {
+        kind_of_runs(&answer).clone_into(kind);
     }
     let folder = folder(&args.result, &inputs.paths())?;
     emit(&args.result, folder, answer, &inputs)

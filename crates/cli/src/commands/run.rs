@@ -117,7 +117,7 @@ fn show(args: &RunArgs, job: &OpenJob, summary: &Summary) -> Result<(), Failure>
     if args.on.result.json {
         print(&summary.to_json())?;
     } else {
-        let record = job.job.loaded.description.join("; ");
+        let record = job.motion_words();
         let display = args.on.result.display_units;
         print(&table::table(summary, &job.job.analysis.model, &record, display))?;
     }
@@ -146,7 +146,7 @@ fn write_files(
     summary: &Summary,
     written: &dyn Fn(u64),
 ) -> Result<(), FileError> {
-    let record = job.job.loaded.description.join("; ");
+    let record = job.motion_words();
     let (text, sha256) = (model.text(), sha256_hex(&model.bytes));
     let inputs = [InputText { path: &model.name, text: &text }];
     let sources: Vec<(String, &str, &str)> = job

@@ -110,8 +110,8 @@ fn run(args: &StudyArgs, study: &OpenStudy, shard: Shard, out: &Path) -> Result<
     }
     let summary = counted("summarising", args.quiet, |engine| conclude(study, out, engine))?;
     print(&table(&summary, args.display_units))?;
-    for warning in said(&summary).iter().filter(|_| !args.quiet) {
-        say(format_args!("warning: {warning}"));
+    for notice in said(&summary).iter().filter(|_| !args.quiet) {
+        say(format_args!("{}: {}: {}", notice.severity().name(), notice.kind, notice.message));
     }
     let certified = outcome.checks.certified(outcome.runs);
     if args.report {

@@ -98,8 +98,9 @@ fn models_side_by_side_in_one_report() {
         "--out",
         "out",
     ]);
-    assert!(text.contains("model: peak sliding displacement"), "{text}");
-    assert!(text.contains("plain: peak sliding displacement"), "{text}");
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("model: peak sliding displacement"), "{text}");
+    assert!(words.contains("plain: peak sliding displacement"), "{text}");
     let page = folder.read("out/report.html");
     assert!(page.contains("bold the largest") && page.contains("Share of the records"));
     assert_eq!(
@@ -471,7 +472,7 @@ fn flat_geometry_is_said_of_runs_suites_and_studies() {
     );
     let output = folder.output(&["study", "plan.toml", "--out", "study"]);
     let said = String::from_utf8(output.stderr).unwrap();
-    let warned = "warning: 2 runs gave the warning flat_geometry, the first of them run 1\n";
+    let warned = "warning: flat_geometry: 2 runs, the first of them run 1\n";
     assert!(said.contains(warned), "{said}");
 }
 
@@ -736,4 +737,41 @@ fn report_for_a_code_names_intensity_factors_and_capacity() {
     }
     let refused = folder.refused(&["run", "stopped.toml", "--property-factors", "aging = 2..3"]);
     assert!(refused.contains("--property-factors: expected factors from below 1"), "{refused}");
+}
+
+/// A model's own record is called by its file wherever a name is needed; what its format is stands behind the name.
+#[test]
+fn a_models_own_record_is_called_by_its_file() {
+    let folder = folder("histories-named", 2);
+    let own = |i: u32| format!("{MODEL}[motion]\nrecord = \"records/r{i}.csv\"\n");
+    folder.write("a.toml", own(0));
+    folder.write("b.toml", own(1));
+    let summary = folder.stdout(&["run", "a.toml", "b.toml", "--json", "-q"]);
+    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+    let names: Vec<&serde_json::Value> =
+        summary["suite"].as_array().unwrap().iter().map(|on| &on["record"]).collect();
+    assert_eq!(names, ["r0", "r1"]);
+    let text = folder.stdout(&["run", "a.toml", "-q", "--out", "out"]);
+    let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words(&text).contains("Record r0 ("), "{text}");
+    assert!(words(&folder.read("out/report.html")).contains("ground motion: r0 ("));
+    // The record that replaces it too.
+    let text = folder.stdout(&["run", "a.toml", "--motion", "records/r1.csv", "-q"]);
+    assert!(words(&text).contains("Record r1 ("), "{text}");
+}
+
+/// Two records of one name from two folders, and of one length, are two rows.
+#[test]
+fn records_of_one_name_in_two_folders_are_two_rows() {
+    let folder = folder("histories-alike", 2);
+    folder.write("near/r0.csv", folder.read("records/r1.csv"));
+    let run = ["run", "model.toml", "--records", "records/r0.csv", "near/r0.csv", "--json", "-q"];
+    let summary: serde_json::Value = serde_json::from_str(&folder.stdout(&run)).unwrap();
+    let names: Vec<&str> = summary["suite"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|on| on["record"].as_str().unwrap())
+        .collect();
+    assert_eq!(names, ["records/r0.csv", "near/r0.csv"]);
 }

@@ -333,6 +333,22 @@ impl ModelHistories {
         over.map_or(f64::NAN, |over| self.governing_of(&over))
     }
 
+    /// How many of the earthquakes that count have a size above a limit, and the record whose size is the largest; of a
+    /// pair the larger of both components. None where a record has none.
+    #[must_use]
+    pub fn beyond(
+        &self,
+        limit: f64,
+        size: impl Fn(&OnRecord) -> f64,
+    ) -> Option<(usize, &OnRecord, f64)> {
+        let over = self.of_each_earthquake(&size)?;
+        let count = over.iter().filter(|size| **size > limit).count();
+        let confirmed = self.earthquakes().filter(|records| is_confirmed(records)).flatten();
+        let sized = confirmed.map(|on| (on, size(on)));
+        let (on, most) = sized.reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+        Some((count, on, most))
+    }
+
     /// The bound with which a demand governs, and the demand; `None` where no record has it.
     #[must_use]
     pub fn governs(&self, column: &DemandColumn) -> Option<(&Bound, f64)> {
@@ -609,12 +625,16 @@ fn on_record(
         sliding: [Vec::new(), Vec::new()],
         notices: notices.clone(),
     };
+    let mut met = Vec::new();
     for (bound, CaseRun { case, kept, .. }) in bounds.iter().zip(ran) {
         on.alone.push(kept.as_ref().ok().and_then(|kept| kept.alone));
         let run = kept.map_err(|error| in_words.failed(&case, &error));
-        let run = run.map(|kept| on.take(bound, bounds.len() > 1, kept));
+        let run = run.map(|kept| on.take(bound, bounds.len() > 1, kept, &mut met));
         on.runs.push(run);
     }
+    // Of a kind that several bounds give, the one with which the block slides farthest is told first.
+    met.sort_by(|a: &(f64, Notice), b| b.0.total_cmp(&a.0));
+    on.notices.extend(met.into_iter().map(|(_, notice)| notice));
     on
 }
 
@@ -661,8 +681,15 @@ fn sliding(response: &Response) -> Option<[Vec<f64>; 2]> {
 }
 
 impl OnRecord {
-    /// Takes what the tables and the figure tell of a run.
-    fn take(&mut self, bound: &Bound, several: bool, kept: RunFigures) -> CertifiedRun {
+    /// Takes what the tables and the figure tell of a run; what it comes to the end of goes to `all_met`, with how far
+    /// it slides.
+    fn take(
+        &mut self,
+        bound: &Bound,
+        several: bool,
+        kept: RunFigures,
+        all_met: &mut Vec<(f64, Notice)>,
+    ) -> CertifiedRun {
         let of_bound = |warning: Notice| match several {
             false => warning,
             true => {
@@ -677,7 +704,9 @@ impl OnRecord {
             }
         }
         self.sliding = kept.sliding.unwrap_or_else(|| core::mem::take(&mut self.sliding));
-        self.notices.extend(of_response.into_iter().chain(met.into_iter().map(of_bound)));
+        self.notices.extend(of_response);
+        let far_m = kept.demands.peak_sliding_displacement_m;
+        all_met.extend(met.into_iter().map(|notice| (far_m, of_bound(notice))));
         let RunFigures { demands, axes, defect, largest, floor_spectra, .. } = kept;
         CertifiedRun { demands, axes, defect, largest, floor_spectra }
     }

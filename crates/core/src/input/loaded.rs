@@ -2,7 +2,7 @@
 //! component, the scale, and what is to be said of all that.
 
 use super::unfit::vertical_alone;
-use super::{PairOf, Scale};
+use super::{MotionSource, PairOf, Scale};
 use crate::error::{MotionError, listed};
 use crate::motion::processing::{Step, process_motion};
 use crate::motion::{Figures, GroundMotion};
@@ -131,6 +131,22 @@ impl Loaded {
         Self { warnings, ..made }.with(motion, 1.0)
     }
 
+    /// What it is called where a name is needed: a record as its source, whatever is made by what it is.
+    #[must_use]
+    pub fn name(&self, source: Option<&MotionSource>) -> String {
+        match source {
+            Some(MotionSource::Record(record)) => record.name(),
+            _ => self.description.join("; "),
+        }
+    }
+
+    /// A name of it, with what was understood of its files as a note.
+    #[must_use]
+    pub fn words(&self, name: &str) -> String {
+        let understood = self.description.join("; ");
+        if name == understood { understood } else { format!("{name} ({understood})") }
+    }
+
     /// The same times a factor; what its reader said stands, how it starts and ends is said anew.
     ///
     /// # Errors
@@ -155,7 +171,9 @@ impl Loaded {
         let Some(motion) = process_motion(&self.motion, steps)? else { return Ok(None) };
         let said = steps.iter().map(Step::to_string);
         let description = self.description.iter().cloned().chain(said).collect();
-        Ok(Some(Self { description, ..self.with(motion, 1.0) }))
+        let cut_s = |step: &Step| if let Step::Trim { from_s, .. } = step { *from_s } else { 0.0 };
+        let origin = self.origin.clone().later_by(steps.iter().map(cut_s).sum());
+        Ok(Some(Self { description, origin, ..self.with(motion, 1.0) }))
     }
 
     /// With a notice of each file along the surface that is a vertical component; a channel that was asked

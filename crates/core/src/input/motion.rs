@@ -75,6 +75,29 @@ pub struct RecordSource {
     pub along_y: Option<RecordAlongY>,
 }
 
+impl RecordSource {
+    /// What it is called: the stem of its file, of two components both.
+    #[must_use]
+    pub fn name(&self) -> String {
+        let x = stem(&self.path);
+        self.along_y.as_ref().map_or(x.to_owned(), |y| format!("{x} + {}", stem(&y.path)))
+    }
+}
+
+/// The name of a file without its folders and its ending.
+///
+/// ```
+/// use slipstick::input::stem;
+/// assert_eq!(stem("far-field/RSN15.A.AT2"), "RSN15.A");
+/// assert_eq!(stem(r"records\kern"), "kern");
+/// assert_eq!(stem(".hidden"), ".hidden");
+/// ```
+#[must_use]
+pub fn stem(path: &str) -> &str {
+    let name = path.rsplit(['/', '\\']).next().unwrap_or(path);
+    name.rsplit_once('.').map_or(name, |(stem, _)| if stem.is_empty() { name } else { stem })
+}
+
 /// The record of the motion along y; what it does not say is as of the record along x.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordAlongY {

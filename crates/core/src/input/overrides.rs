@@ -248,6 +248,16 @@ fn si_unit(path: &str) -> &'static str {
     }
 }
 
+/// The SI unit of a bare number that a program gives at a path; empty where a number is complete without one, where a
+/// bare one is a ratio, and at a path that no model has.
+#[must_use]
+pub fn unit_of_bare(path: &str) -> &'static str {
+    match find_kind(path) {
+        Ok(Kind::QuantityOrRatio(..)) | Err(_) => "",
+        Ok(_) => si_unit(path),
+    }
+}
+
 /// The source of a model's own text; keys that are set have sources of their own.
 const FILE: usize = 0;
 

@@ -2,8 +2,11 @@
 //! own words.
 
 use super::kinds::Kind;
+use super::measured;
+use crate::assessment::models::ISOLATOR_PERIOD;
 use crate::error::{ChoiceError, UnitError, similar};
-use crate::input::Analysis;
+use crate::input::{Analysis, unit_of_bare};
+use crate::motion::intensity::LevelMeasure;
 use crate::units::{Dimension, parse_quantity};
 
 /// How often a field is given, and what its text is.
@@ -19,6 +22,21 @@ pub enum Takes {
     Flag,
 }
 
+/// What the numbers in the text of a field measure: a program that gives bare ones gives them in SI.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measures {
+    /// Nothing: they are complete without a unit, or there are none.
+    Nothing,
+    /// A dimension.
+    Of(Dimension),
+    /// What the demand of the request measures.
+    Demand,
+    /// What the intensity measure of the request measures.
+    Intensity,
+    /// What the key of the model measures that stands before them.
+    Key,
+}
+
 /// A field of a request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Field {
@@ -28,6 +46,10 @@ pub struct Field {
     pub value: &'static str,
     /// How often it is given.
     pub takes: Takes,
+    /// What its numbers measure.
+    pub measures: Measures,
+    /// Whether two numbers are the ends of a range, `FROM..TO`; else numbers are a list.
+    pub is_range: bool,
     /// The text where none is given; empty where nothing stands for it.
     pub default: &'static str,
     /// The key of the model that stands for it; empty where none does.
@@ -40,7 +62,16 @@ pub struct Field {
 
 impl Field {
     pub(super) const fn new(name: &'static str, value: &'static str, about: &'static str) -> Self {
-        Self { name, value, takes: Takes::One, default: "", key: "", sample: "", about }
+        let (takes, measures, is_range) = (Takes::One, Measures::Nothing, false);
+        Self { name, value, takes, measures, is_range, default: "", key: "", sample: "", about }
+    }
+
+    pub(super) const fn measuring(self, measures: Measures) -> Self {
+        Self { measures, ..self }
+    }
+
+    pub(super) const fn range_of(self, measures: Measures) -> Self {
+        Self { measures, is_range: true, ..self }
     }
 
     pub(super) const fn many(self) -> Self {
@@ -69,6 +100,22 @@ impl Field {
 }
 
 impl Field {
+    /// The SI unit of bare numbers in its text; empty where they have none. `key` is the key of the model that stands
+    /// before them, `of` the text of another field of the request, its default where none is given.
+    #[must_use]
+    pub fn unit(&self, key: &str, of: impl Fn(&str) -> String) -> &'static str {
+        match self.measures {
+            Measures::Nothing => "",
+            Measures::Of(dimension) => dimension.si_unit(),
+            Measures::Demand => measured(&of("demand")).0.map_or("", Dimension::si_unit),
+            Measures::Intensity => {
+                LevelMeasure::parse(&of("measure")).map_or("", |measure| measure.unit())
+            }
+            Measures::Key if key == ISOLATOR_PERIOD => Dimension::Time.si_unit(),
+            Measures::Key => unit_of_bare(key),
+        }
+    }
+
     /// What a form starts with where it asks of a model.
     #[must_use]
     pub fn start(&self, model: &Analysis) -> &'static str {

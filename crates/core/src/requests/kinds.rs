@@ -1,7 +1,8 @@
 //! The analyses and their fields: a table from which every door makes its options, keywords or form.
 
-use super::fields::{Field, FrontEnd, Takes};
+use super::fields::{Field, FrontEnd, Measures, Takes};
 use crate::assessment::code::CODES;
+use crate::units::Dimension;
 
 const PATH_VALUES: &str = "PATH=VALUES";
 
@@ -22,14 +23,16 @@ const SCALE_TO: Field = Field::new(
     "LEVEL",
     "Scale every record to this value of the measure: \"0.4 g\"; as recorded if left out",
 )
-.sample("0.4 g");
+.sample("0.4 g")
+.measuring(Measures::Intensity);
 const SCALE: Field = Field::new("scale", "FACTOR", "Scale every record by this factor").or("1");
 const VARY: Field = Field::new(
     "vary",
     PATH_VALUES,
     "Parameter to vary: slider.radius=\"1, 2, 3 m\" or slider.radius=1..5m:200; may be repeated",
 )
-.many();
+.many()
+.measuring(Measures::Key);
 const FRICTION: Field = Field::new(
     "friction",
     "VALUES",
@@ -50,7 +53,8 @@ const KEEP: Field = Field::new(
     "Only designs with this value or within this range: slider.radius=\"1..2 m\", friction=upper; \
      may be repeated",
 )
-.many();
+.many()
+.range_of(Measures::Key);
 const BY: Field = Field::new(
     "by",
     "PATH",
@@ -126,7 +130,8 @@ const SUITE: &[Field] = &[
         "FROM..TO",
         "First and last period of the range in which pairs are scaled to the spectrum: \"0.6 s..3.8 s\"; 0.75 \
          and 1.25 effective periods of the hand calculation if left out",
-    ),
+    )
+    .range_of(Measures::Of(Dimension::Time)),
     PROPERTY_FACTORS,
     Field::new(
         "hazard",
@@ -172,7 +177,8 @@ const SWEEP: &[Field] = &[Field::new(
     "over",
     PATH_VALUES,
     "Parameter along the axis and its values: slider.kinetic_friction=0.02..0.1:200",
-)];
+)
+.measuring(Measures::Key)];
 
 /// Fields of a sliding spectrum.
 const SPECTRUM: &[Field] = &[
@@ -181,7 +187,8 @@ const SPECTRUM: &[Field] = &[
         PATH_VALUES,
         "Parameter along the axis: storey.1.period=0.1..3s:30, isolator.period=1..5s:40, …",
     )
-    .or("isolator.period=1..5s:40"),
+    .or("isolator.period=1..5s:40")
+    .measuring(Measures::Key),
     FRICTION,
     VARY,
     MEASURE,
@@ -226,13 +233,15 @@ const IDA: &[Field] = &[
         "LEVELS",
         "Levels for all records: \"0.1, 0.2, 0.4 g\" or \"0.1..1.5 g:15\"; hunted, record by record, if \
          left out",
-    ),
+    )
+    .measuring(Measures::Intensity),
     Field::new(
         "between",
         "FROM..TO",
         "First and highest level of the hunt: \"0.05..10 g\"; a twentieth and twenty times the records' \
          median if left out",
-    ),
+    )
+    .range_of(Measures::Intensity),
     DEMAND,
     Field::new(
         "limit",
@@ -240,7 +249,8 @@ const IDA: &[Field] = &[
         "Limit on the demand: \"150 mm\"; of sliding, slider.gap of the model if left out",
     )
     .key("slider.gap")
-    .sample("150 mm"),
+    .sample("150 mm")
+    .measuring(Measures::Demand),
     FRICTION,
     VARY,
     KEEP,
@@ -257,7 +267,8 @@ const FRAGILITY: &[Field] = &[
         "LIMIT",
         "Limit on the demand: \"150 mm\"; that of the analysis if left out, and of none where the table has \
          counts or capacities",
-    ),
+    )
+    .measuring(Measures::Demand),
     Field::new(
         "measure",
         "NAME",
@@ -280,7 +291,8 @@ const FRAGILITY: &[Field] = &[
         "Only rows with this value or within this range: slider.radius=\"1..2 m\", record=taft-111; may be \
          repeated",
     )
-    .many(),
+    .many()
+    .range_of(Measures::Key),
     Field::new("by", "PATH", "One curve for each value of this column: slider.radius"),
     Field::new(
         "bootstrap",
@@ -292,8 +304,10 @@ const FRAGILITY: &[Field] = &[
         "floor",
         "LIMIT",
         "Demands below this count as below it only, in a cloud: \"1 mm\"",
-    ),
-    Field::new("cap", "LIMIT", "Demands above this count as above it only, in a cloud"),
+    )
+    .measuring(Measures::Demand),
+    Field::new("cap", "LIMIT", "Demands above this count as above it only, in a cloud")
+        .measuring(Measures::Demand),
     CONFIDENCE,
 ];
 
@@ -310,7 +324,8 @@ const DESIGN: &[Field] = &[
         "Sliding displacement not to be exceeded; slider.gap of the model if left out",
     )
     .key("slider.gap")
-    .sample("150 mm"),
+    .sample("150 mm")
+    .measuring(Measures::Of(Dimension::Length)),
     Field::new("probability", "SHARE", "Share of the records that must stay within the gap")
         .or("0.9"),
     Field::new(
@@ -353,26 +368,30 @@ const CYCLIC: &[Field] = &[
         "mass",
         "MASS",
         "Mass of the block: friction becomes a coefficient, and a model of the block is made",
-    ),
+    )
+    .measuring(Measures::Of(Dimension::Mass)),
     Field::new(
         "normal-force",
         "FORCE",
         "Force that presses the block on its surface, where it is not the weight of that mass: of all tests, or one \
          for each in their order, \"400 kN,800 kN\"",
     )
-    .many(),
+    .many()
+    .measuring(Measures::Of(Dimension::Force)),
     Field::new(
         "area",
         "AREA",
         "Area of the bearing: from tests under several normal forces, how friction follows the pressure, \
          μ(p) = μ (p/reference)^(-exponent)",
-    ),
+    )
+    .measuring(Measures::Of(Dimension::Area)),
     Field::new(
         "reference-pressure",
         "PRESSURE",
         "Pressure at which coefficients are told; if left out, that of the tests which is next to the geometric mean of \
          the least and the largest",
-    ),
+    )
+    .measuring(Measures::Of(Dimension::Pressure)),
     Field::new(
         "law",
         "LAW",
@@ -391,7 +410,8 @@ const CYCLIC: &[Field] = &[
         "slack",
         "LENGTH",
         "Travel after each reversal to leave out (backlash); found from the force if left out",
-    ),
+    )
+    .measuring(Measures::Of(Dimension::Length)),
     MAPPING,
 ];
 
@@ -402,8 +422,9 @@ const FREE_VIBRATION: &[Field] = &[
         "QUANTITY",
         "Quantity to fit, where the file has several: storey1_acceleration, displacement, …",
     ),
-    Field::new("start", "TIME", "Time at which free vibration starts: \"12 s\""),
-    Field::new("end", "TIME", "Time at which it ends"),
+    Field::new("start", "TIME", "Time at which free vibration starts: \"12 s\"")
+        .measuring(Measures::Of(Dimension::Time)),
+    Field::new("end", "TIME", "Time at which it ends").measuring(Measures::Of(Dimension::Time)),
     MAPPING,
 ];
 
@@ -414,7 +435,8 @@ const SHAKING_TABLE: &[Field] = &[
         "PATH[=LEAST..MOST]",
         "Keys to fit, each perhaps with its range: \"slider.spring=100 kN/m..200 kN/m\"; may be repeated",
     )
-    .many(),
+    .many()
+    .range_of(Measures::Key),
     Field::new(
         "using",
         "QUANTITY",
@@ -641,6 +663,21 @@ mod tests {
                 assert_eq!(asked.one(field.name), field.default, "{}", field.name);
             }
         }
+        let unit = |kind: Kind, name: &str, key: &str, demand: &str| {
+            let field = kind.fields().iter().find(|field| field.name == name).unwrap();
+            let of = |other: &str| match other {
+                "demand" => demand.to_owned(),
+                _ => Request::new(kind, []).unwrap().one(other).to_owned(),
+            };
+            field.unit(key, of)
+        };
+        assert_eq!(unit(Kind::Ida, "limit", "", "peak_sliding_displacement_m"), "m");
+        assert_eq!(unit(Kind::Ida, "limit", "", "gap_ratio"), "");
+        assert_eq!(unit(Kind::Ida, "scale-to", "", ""), "m/s2");
+        assert_eq!(unit(Kind::Spectrum, "over", "isolator.period", ""), "s");
+        assert_eq!(unit(Kind::Spectrum, "vary", "storey.1.frequency", ""), "Hz");
+        assert_eq!(unit(Kind::Spectrum, "vary", "slider.kinetic_friction", ""), "");
+        assert_eq!(unit(Kind::Spectrum, "vary", "slider.raduis", ""), "");
         for (_, kind, name, reason) in NOT_OFFERED {
             let known = |name: &str| kind.fields().iter().any(|field| field.name == name);
             assert!(name.is_none_or(known) && !reason.is_empty(), "{name:?}");

@@ -96,7 +96,7 @@ impl Study {
             Cells::Counts(rows.iter().map(|row| Some(row.run as i64)).collect()),
             texts(&|row| record(row).map_or(self.made_motion().to_owned(), |r| r.name.clone())),
             texts(&|row| record(row).map_or_else(String::new, |r| r.channel.clone())),
-            numbers(&|row| self.level(row.case.level).unwrap_or(f64::NAN)),
+            numbers(&|row| self.level_of(&row.case)),
             numbers(&|row| row.case.scale),
         ];
         if self.has_clusters() {

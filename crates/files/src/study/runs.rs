@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use slipstick::input::plan::{Levels, Plan};
+use slipstick::input::stem;
 
 use slipstick::study::Certified;
 
@@ -13,6 +14,9 @@ use crate::globs::expand;
 use crate::parquet::ParquetTable;
 use crate::read::read_bytes;
 use crate::table::{ReadTable, read_table};
+
+/// What commands besides a study say of their runs.
+const SUMMARY_JSON: &str = "summary.json";
 
 /// The column of that measure.
 const MEASURE: &str = "measure";
@@ -84,15 +88,38 @@ pub(super) fn measure_of_levels(part: &Path) -> Option<String> {
     }
 }
 
+/// The folder that a source of runs is, or in which a command wrote it.
+fn folder_of(source: &Path) -> Option<&Path> {
+    match source.file_stem()?.to_str()? {
+        "ida" | "capacities" | "runs" if source.is_file() => source.parent(),
+        _ => Some(source),
+    }
+}
+
+/// A file of JSON in a folder; `None` where there is none.
+fn json_in(folder: &Path, name: &str) -> Option<serde_json::Value> {
+    serde_json::from_slice(&read_bytes(&folder.join(name)).ok()?).ok()
+}
+
 /// The limit that an incremental dynamic analysis was run for, from the summary in its folder or beside its
 /// table; `None` where it was another demand's.
 #[must_use]
 pub fn limit_of_ida(source: &Path, demand: &str) -> Option<f64> {
-    let folder = match source.file_stem()?.to_str()? {
-        "ida" | "capacities" if source.is_file() => source.parent()?,
-        _ => source,
-    };
-    let summary = read_bytes(&folder.join("summary.json")).ok()?;
-    let summary: serde_json::Value = serde_json::from_slice(&summary).ok()?;
+    let summary = json_in(folder_of(source)?, SUMMARY_JSON)?;
     (summary.get("demand")?.as_str()? == demand).then(|| summary.get("limit")?.as_f64())?
+}
+
+/// What the runs of a command are of, from what it wrote beside them: the name of the model, of a study that of its
+/// model's file and its own; `None` where nothing says so.
+#[must_use]
+pub fn model_of_runs(source: &Path) -> Option<String> {
+    let folder = folder_of(source)?;
+    if let Some(summary) = json_in(folder, SUMMARY_JSON) {
+        return Some(summary.get("model")?.as_str()?.to_owned());
+    }
+    let manifest = json_in(folder, MANIFEST)?;
+    // The plan stands first, the model second.
+    let model = stem(manifest.get("inputs")?.get(1)?.get("path")?.as_str()?).to_owned();
+    let study = manifest.get("name").and_then(serde_json::Value::as_str);
+    Some(study.map_or_else(|| model.clone(), |study| format!("{model} ({study})")))
 }

@@ -8,21 +8,26 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _core
-from ._request import given, paths as texts_of, wrong
+from ._names import renamed
+from ._progress import following
+from ._records import Suite, of_suite
+from ._request import a_model, given, paths as texts_of, several, wrong
 from ._result import Result, noticed, warn_of, write
 from ._table import Table
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Iterable, Sequence
 
     from matplotlib.axes import Axes
 
+    from ._progress import Progress
+    from ._records import Named, Records
     from ._request import Values, Varied
     from ._study import Study
     from ._table import Frame
 
-    Progress = Callable[[int, int], object]
-    Records = Mapping[str, _core.Motion]
+    #: A text with its unit, or a number in SI
+    Value = str | float
 
 
 class Assessment(Result):
@@ -111,7 +116,7 @@ def read_suite(
     patterns: str | PathLike[str] | Iterable[str | PathLike[str]],
     *,
     y: str | PathLike[str] | Iterable[str | PathLike[str]] = (),
-    channel: str | None = None,
+    channel: str | int | None = None,
     units: str | None = None,
     dt: float | str | None = None,
     vertical: str | PathLike[str] | Iterable[str | PathLike[str]] = (),
@@ -152,15 +157,15 @@ def read_suite(
 
 def suite(
     models: _core.Model | Mapping[str, _core.Model],
-    records: Records,
+    records: Records | Suite,
     *,
     second: Records | None = None,
     measure: str | None = None,
-    scale_to: str | None = None,
+    scale_to: Value | None = None,
     scale: float | None = None,
     target: str | PathLike[str] | None = None,
     code_spectrum: str | None = None,
-    periods: str | None = None,
+    periods: str | tuple[float, float] | None = None,
     property_factors: str | None = None,
     hazard: str | Sequence[str] | None = None,
     eccentricity: str | None = None,
@@ -181,7 +186,9 @@ def suite(
     models
         A model, or several by name.
     records
-        The motions by name, such as from ``read_suite``; those in two directions, ``Motion(x, y=y)``, are pairs.
+        The motions by name, such as from ``read_suite``; those in two directions, ``Motion(x, y=y)``, are pairs. A
+        motion alone, a list, whose names are numbers from 1, and a stream of ObsPy, whose stations are, go as well; a
+        ``Suite`` says how they are scaled, too.
     second
         Other components of records in one direction, as many and in the same order: both components of a pair
         act at once, under one factor.
@@ -236,30 +243,34 @@ def suite(
     >>> len(found.table), found.tables["governing"].columns[:3]
     (3, ['model', 'friction', 'statistic'])
     """
-    several = models if isinstance(models, Mapping) else {models.name or "model": models}
-    of, others = components("records", records, second)
-    return _told(
-        _core.suite(
-            list(several.items()),
+    of, others, asked = of_suite("records", records, {**locals()})
+    if not isinstance(models, Mapping):
+        a_model(models, "models")
+    by_name = models if isinstance(models, Mapping) else {models.name or "model": models}
+    for name, model in by_name.items():
+        a_model(model, f"models {name!r}")
+    with following(progress) as on:
+        answer = _core.suite(
+            list(by_name.items()),
             of,
             others,
-            given("suite", locals()),
+            given("suite", asked),
             target=None if target is None else Path(target),
             jobs=jobs,
-            progress=progress,
+            progress=on,
         )
-    )
+    return _told(answer)
 
 
 def spectrum(
     model: _core.Model,
-    records: Records,
+    records: Records | Suite,
     over: Varied | None = None,
     *,
     friction: Values | None = None,
     vary: Varied | None = None,
     measure: str | None = None,
-    scale_to: str | None = None,
+    scale_to: Value | None = None,
     scale: float | None = None,
     demand: Sequence[str] = (),
     bounds: str | None = None,
@@ -320,7 +331,7 @@ def spectrum(
     >>> len(found.tables["runs"])
     9
     """
-    return _assess("spectrum", model, records, second, locals(), jobs, progress)
+    return _assess("spectrum", model, records, locals(), jobs, progress)
 
 
 class Sensitivity(Assessment):
@@ -355,13 +366,14 @@ class Sensitivity(Assessment):
         return draw_tornado(self.table, chosen, ax, most, **kwargs)
 
 
+@renamed(motions="records")
 def sensitivity(
     model: _core.Model,
-    motions: _core.Motion | Records | None,
+    records: Records | Suite | None,
     paths: str | Sequence[str] = (),
     *,
     measure: str | None = None,
-    scale_to: str | None = None,
+    scale_to: Value | None = None,
     scale: float | None = None,
     demand: str | Sequence[str] = (),
     second: Records | None = None,
@@ -378,8 +390,8 @@ def sensitivity(
     ----------
     model
         The model.
-    motions
-        A motion, or several by name, in one direction or in two; None for the model's own.
+    records
+        A motion or several, as in ``suite``, in one direction or in two; None for the model's own.
     paths
         Keys that stand in the model as one number, ``["slider.kinetic_friction", "storey.1.mass"]``; all of slider,
         block and structure if left out.
@@ -417,12 +429,14 @@ def sensitivity(
     >>> [bool(d < 0) for d in found.table["derivative"]]
     [True, False]
     """
-    records = {} if motions is None else motions
-    if isinstance(records, _core.Motion):
-        records = {"motion": records}
-    of, others = ([], []) if motions is None else components("motions", records, second)
-    asked = given("sensitivity", locals())
-    answer = _core.assess("sensitivity", model, of, others, asked, jobs=jobs, progress=progress)
+    asked: Mapping[str, Any] = {**locals()}
+    a_model(model)
+    of: Named = []
+    others: Named = []
+    if records is not None:
+        of, others, asked = of_suite("records", records, asked)
+    with following(progress) as on:
+        answer = _core.assess("sensitivity", model, of, others, given("sensitivity", asked), jobs=jobs, progress=on)
     told = Sensitivity(answer)
     warn_of(noticed(told.warnings))
     return told
@@ -430,16 +444,16 @@ def sensitivity(
 
 def ida(
     model: _core.Model,
-    records: Records,
+    records: Records | Suite,
     *,
     measure: str | None = None,
     scale_to: Values | None = None,
-    between: str | None = None,
+    between: str | tuple[float, float] | None = None,
     demand: str | None = None,
-    limit: str | None = None,
+    limit: Value | None = None,
     friction: Values | None = None,
     vary: Varied | None = None,
-    where: Sequence[str] = (),
+    where: Sequence[str] | Mapping[str, Values] = (),
     by: str | None = None,
     bounds: str | None = None,
     second: Records | None = None,
@@ -499,23 +513,28 @@ def ida(
     >>> len(found.table), len(found.tables["capacities"])
     (12, 3)
     """
-    return _assess("ida", model, records, second, locals(), jobs, progress)
+    return _assess("ida", model, records, locals(), jobs, progress)
 
 
 def fragility(
-    source: Frame | Assessment | Study | str | PathLike[str],
+    source: Frame | Assessment | Study | str | PathLike[str] | None = None,
     *,
+    levels: Values | None = None,
+    exceeded: int | Iterable[int] | None = None,
+    runs: int | Iterable[int] | None = None,
+    capacities: Values | None = None,
+    reached: Iterable[bool] | None = None,
     demand: str | None = None,
-    limit: str | None = None,
+    limit: Value | None = None,
     measure: str | None = None,
     units: str | None = None,
     fit_to: str | None = None,
-    where: Sequence[str] = (),
+    where: Sequence[str] | Mapping[str, Values] = (),
     by: str | None = None,
     bootstrap: int | None = None,
     seed: int | None = None,
-    floor: str | None = None,
-    cap: str | None = None,
+    floor: Value | None = None,
+    cap: Value | None = None,
     confidence: float | None = None,
     jobs: int | None = None,
     progress: Progress | None = None,
@@ -527,10 +546,16 @@ def fragility(
     source
         Runs of ``ida`` or ``study``, capacities or counts: what they gave, a frame of any library, a file in CSV
         or Parquet, or the folder of a command.
+    levels, exceeded, runs
+        In place of that one's own counts: levels of the measure, with their unit, in SI, or in ``units``; how many of
+        the runs at each exceed the limit; how many there are, one number where it is the same at all.
+    capacities, reached
+        In place of that the level at which each record reaches the limit, as ``levels``; where ``reached`` is False
+        the highest level that it was run at without reaching it. All are reached if left out.
     demand, limit
-        The demand and the limit on it with its unit; that of the analysis if left out.
+        The demand and the limit on it with its unit or in SI; that of the analysis if left out.
     measure, units
-        The measure, and its units where the table does not state them.
+        The measure, and its units where the table does not state them or ``levels`` are not in SI.
     fit_to
         ``"counts"``, ``"capacities"`` or ``"cloud"``; by the kind of data if left out.
     where, by
@@ -565,29 +590,65 @@ def fragility(
     >>> curve = ss.fragility(ida)
     >>> curve.table.columns
     ['level', 'probability', 'band_low', 'band_high']
+    >>> own = ss.fragility(levels=["0.1 g", "0.2 g", "0.3 g", "0.4 g"], exceeded=[1, 4, 9, 14], runs=20, measure="PGA")
+    >>> round(own.summary["median"] / 9.80665, 2)
+    0.31
     """
     asked = given("fragility", locals())
     known = certified = None
-    if isinstance(source, Assessment):
+    own = {"levels": levels, "exceeded": exceeded, "runs": runs, "capacities": capacities, "reached": reached}
+    own = {name: value for name, value in own.items() if value is not None}
+    if (source is None) == (not own):
+        found = "neither" if source is None else f"both source and {', '.join(own)}"
+        raise wrong("source", "a source of runs, or levels with exceeded and runs, or capacities", found)
+    if source is None:
+        table = _own_data(own, measure, units)._core
+    elif isinstance(source, Assessment):
         known, table = source.summary.get("limit"), source.table._core
     elif isinstance(source, (str, PathLike)):
         table, known, certified = _core.read_runs(Path(source), demand)
     else:
         frame = getattr(source, "table", source)
         table = (frame if isinstance(frame, Table) else Table(frame))._core
-    return _told(_core.fit(table, asked, limit=known, certified=certified, jobs=jobs, progress=progress))
+    with following(progress) as on:
+        return _told(_core.fit(table, asked, limit=known, certified=certified, jobs=jobs, progress=on))
+
+
+def _own_data(own: Mapping[str, Any], measure: str | None, units: str | None) -> Table:
+    """Counts at levels, or capacities, as the table that a fragility is of."""
+    of_levels = "capacities" not in own
+    first, others = ("levels", ["exceeded", "runs"]) if of_levels else ("capacities", ["reached"])
+    for name in [first, *others] if of_levels else [first]:
+        if name not in own:
+            raise wrong(name, f"{name} beside {', '.join(own)}", "none")
+    for name in own:
+        if name not in (first, *others):
+            raise wrong(name, "counts at levels, or capacities", "both")
+    if measure is None:
+        raise wrong("measure", "the measure of the levels, such as PGA or Sa(1.2 s)", "none")
+    listed = own[first] if several(own[first]) else [own[first]]
+    unit = "" if units is not None else _core.unit_of_measure(measure)
+    columns: dict[str, Any] = {"level" if of_levels else "capacity": _core.numbers_in(first, listed, unit)}
+    count = len(listed)
+    for name in others:
+        value = own.get(name, True)
+        values = list(value) if several(value) else [value] * count
+        if len(values) != count:
+            raise wrong(name, f"{count} values, as many as {first}", str(len(values)))
+        columns[name] = values
+    return Table(columns, {next(iter(columns)): unit} if unit else None)
 
 
 def design(
     model: _core.Model,
-    records: Records,
+    records: Records | Suite,
     vary: Varied | None = None,
     *,
     friction: Values | None = None,
     measure: str | None = None,
-    scale_to: str | None = None,
+    scale_to: Value | None = None,
     scale: float | None = None,
-    gap: str | None = None,
+    gap: Value | None = None,
     probability: float | None = None,
     demand: str | None = None,
     share: float | None = None,
@@ -656,46 +717,22 @@ def design(
     >>> list(found.tables)
     ['front', 'runs']
     """
-    return _assess("design", model, records, second, locals(), jobs, progress)
+    return _assess("design", model, records, locals(), jobs, progress)
 
 
 def _assess(
     kind: str,
     model: _core.Model,
-    records: Records,
-    second: Records | None,
+    records: Records | Suite,
     asked: Mapping[str, object],
     jobs: int | None,
     progress: Progress | None,
 ) -> Assessment:
-    of, others = components("records", records, second)
-    answer = _core.assess(kind, model, of, others, given(kind, asked), jobs=jobs, progress=progress)
+    a_model(model)
+    of, others, asked = of_suite("records", records, asked)
+    with following(progress) as on:
+        answer = _core.assess(kind, model, of, others, given(kind, asked), jobs=jobs, progress=on)
     return _told(answer)
-
-
-def components(
-    argument: str, records: Records, second: Records | None = None
-) -> tuple[list[tuple[str, _core.Motion]], list[tuple[str, _core.Motion]]]:
-    """Motions with their names, at least one, all in one direction or all in two, and their other components."""
-    for name, motions in ((argument, records), ("second", second or {})):
-        if not isinstance(motions, Mapping):
-            raise wrong(name, "motions by name, {name: motion}", type(motions).__name__)
-        for key, motion in motions.items():
-            if not isinstance(motion, _core.Motion):
-                raise wrong(name, f"a motion as {key!r}", type(motion).__name__)
-    if not records:
-        raise wrong(argument, "at least one motion", "none")
-    if second is not None and len(second) != len(records):
-        raise wrong("second", f"one other component for each of {len(records)} records", str(len(second)))
-    of, others = list(records.items()), list((second or {}).items())
-    in_one, in_two = list[str](), list[str]()
-    for key, motion in of + others:
-        (in_one if motion.acceleration_y_m_per_s2 is None else in_two).append(key)
-    if in_two and second is not None:
-        raise wrong("second", "records in one direction beside it", f'"{in_two[0]}" in two')
-    if in_two and in_one:
-        raise wrong(argument, "motions all in one direction or all in two", f'"{in_one[0]}" in one')
-    return of, others
 
 
 def _told(answer: _core.Assessment) -> Assessment:

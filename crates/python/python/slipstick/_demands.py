@@ -6,23 +6,33 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from . import _core
-from ._assessment import components
-from ._request import several, wrong
-from ._table import Table
+from ._names import renamed
+from ._progress import following
+from ._records import components
+from ._request import a_model, several, text_of, wrong
+from ._table import Table, columns_of, is_frame, units_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
+
+    from ._progress import Progress
+    from ._records import Records
+    from ._request import Values
 
 
+@renamed(motion="records", designs="vary")
 def demands(
     model: _core.Model,
-    motion: _core.Motion | Mapping[str, _core.Motion] | None,
-    designs: Mapping[str, Any],
+    records: Records | None,
+    vary: Any,
     *,
+    scale: Values | None = None,
+    measure: str | None = None,
+    levels: Values | None = None,
     columns: Sequence[str] | None = None,
     check: float = 0.001,
     jobs: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
+    progress: Progress | None = None,
 ) -> Table:
     """Analyse a model with many values, on all threads, without histories.
 
@@ -30,12 +40,17 @@ def demands(
     ----------
     model
         The model, with the friction that it has; its ``slider.bounds`` play no part.
-    motion
-        A motion, or several by name, in one direction or in two; None for the model's own, which must then be a
-        made one.
-    designs
+    records
+        A motion, several by name or in a list, or a stream of ObsPy, in one direction or in two; None for the model's
+        own, which must then be a made one.
+    vary
         Arrays by path, all of one length: in SI, or of quantities of pint and texts with their units. One
-        number serves for all designs.
+        number serves for all designs. A frame of any library goes as well, a row a design, its columns named by paths.
+    scale
+        A factor on every motion for each design, or one for all.
+    measure, levels
+        In place of that every motion is scaled for each design so that the measure, PGA if left out, takes the
+        design's level: texts with their unit, or numbers in SI.
     columns
         The columns that are wanted; all of them if left out.
     check
@@ -70,19 +85,23 @@ def demands(
     >>> bool((np.diff(table["peak_sliding_displacement_m"]) > 0.0).all())
     True
     """
-    if not isinstance(designs, Mapping):
-        raise wrong("designs", "arrays by path, {path: array}", type(designs).__name__)
-    lists = {path: values if several(values) else [values] for path, values in designs.items()}
+    a_model(model)
+    lists = _lists(vary)
     if not lists:
-        raise wrong("designs", "at least one path with its values", "none")
+        raise wrong("vary", "at least one path with its values", "none")
+    scaling: dict[str, Any] = {name: values for name, values in (("scale", scale), ("levels", levels)) if values is not None}
+    lists.update({name: list(values) if several(values) else [values] for name, values in scaling.items()})
     count = max(len(values) for values in lists.values())
-    each = [(path, list(values) * count if len(values) == 1 else values) for path, values in lists.items()]
+    all_of = {name: list(values) * count if len(values) == 1 else values for name, values in lists.items()}
+    of_designs = {name: all_of.pop(name) for name in scaling}
     if not 0.0 <= check <= 1.0:
         raise wrong("check", "a share from 0 to 1", repr(check))
-    motions = {"motion": motion} if isinstance(motion, _core.Motion) else motion
-    records = [] if motions is None else components("motion", motions)[0]
+    of = [] if records is None else components("records", records)[0]
     one_of = round(1.0 / check) if check > 0.0 else None
-    core = _core.demands(model, records, each, one_of=one_of, jobs=jobs, progress=progress)
+    with following(progress) as on:
+        core = _core.demands(
+            model, of, list(all_of.items()), **of_designs, measure=measure, one_of=one_of, jobs=jobs, progress=on
+        )
     table = Table._of(core)
     if columns is None:
         return table
@@ -90,3 +109,16 @@ def demands(
         if name not in table:
             raise wrong("columns", f"columns among {', '.join(table)}", repr(name))
     return Table({name: table[name] for name in columns}, {k: v for k, v in table.units.items() if k in columns})
+
+
+def _lists(designs: Any) -> dict[str, Any]:
+    """Values by path, of a frame its columns, each with the unit that the frame says."""
+    if isinstance(designs, Mapping):
+        return {path: values if several(values) else [values] for path, values in designs.items()}
+    if not is_frame(designs):
+        raise wrong("vary", "arrays by path, {path: array}, or a frame of designs", type(designs).__name__)
+    units = units_of(designs)
+    return {
+        path: [text_of(path, value, units[path]) for value in values] if path in units else values
+        for path, values in columns_of(designs)
+    }

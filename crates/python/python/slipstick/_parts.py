@@ -45,12 +45,12 @@ class Block(Part):
     def __init__(
         self,
         *,
-        mass: str | Quantity | None = None,
-        weight: str | Quantity | None = None,
+        mass: str | Quantity | SupportsFloat | None = None,
+        weight: str | Quantity | SupportsFloat | None = None,
         name: str | None = None,
-        width: str | Quantity | None = None,
-        width_y: str | Quantity | None = None,
-        height: str | Quantity | None = None,
+        width: str | Quantity | SupportsFloat | None = None,
+        width_y: str | Quantity | SupportsFloat | None = None,
+        height: str | Quantity | SupportsFloat | None = None,
     ) -> None:
         super().__init__(locals())
 
@@ -129,15 +129,15 @@ class Slider(Part):
         static_ratio: SupportsFloat | str | None = None,
         surface: Sequence[Any] | None = None,
         triple: Mapping[str, Any] | None = None,
-        spring: str | Quantity | None = None,
-        radius: str | Quantity | None = None,
-        period: str | Quantity | None = None,
-        damper: str | Quantity | None = None,
+        spring: str | Quantity | SupportsFloat | None = None,
+        radius: str | Quantity | SupportsFloat | None = None,
+        period: str | Quantity | SupportsFloat | None = None,
+        damper: str | Quantity | SupportsFloat | None = None,
         damping_ratio: SupportsFloat | str | None = None,
-        tilt: str | Quantity | None = None,
-        tilt_y: str | Quantity | None = None,
+        tilt: str | Quantity | SupportsFloat | None = None,
+        tilt_y: str | Quantity | SupportsFloat | None = None,
         asymmetry: SupportsFloat | str | None = None,
-        gap: str | Quantity | None = None,
+        gap: str | Quantity | SupportsFloat | None = None,
         stop: Mapping[str, Any] | None = None,
         bounds: Mapping[str, Any] | None = None,
     ) -> None:
@@ -177,9 +177,9 @@ class Stop(Part):
     def __init__(
         self,
         *,
-        gap: str | Mapping[str, Any] | Quantity | None = None,
-        stiffness: str | Quantity | None = None,
-        damper: str | Quantity | None = None,
+        gap: str | Mapping[str, Any] | Quantity | SupportsFloat | None = None,
+        stiffness: str | Quantity | SupportsFloat | None = None,
+        damper: str | Quantity | SupportsFloat | None = None,
         damping_ratio: SupportsFloat | str | None = None,
         restitution: SupportsFloat | str | None = None,
     ) -> None:
@@ -212,9 +212,9 @@ class Surface(Part):
     def __init__(
         self,
         *,
-        radius: str | Quantity | None = None,
+        radius: str | Quantity | SupportsFloat | None = None,
         friction: SupportsFloat | str | Mapping[str, Any] | None = None,
-        travel: str | Quantity | None = None,
+        travel: str | Quantity | SupportsFloat | None = None,
     ) -> None:
         super().__init__(locals())
 
@@ -279,20 +279,20 @@ class Storey(Part):
     def __init__(
         self,
         *,
-        mass: str | Quantity | None = None,
-        weight: str | Quantity | None = None,
+        mass: str | Quantity | SupportsFloat | None = None,
+        weight: str | Quantity | SupportsFloat | None = None,
         name: str | None = None,
-        frequency: str | Quantity | None = None,
-        period: str | Quantity | None = None,
+        frequency: str | Quantity | SupportsFloat | None = None,
+        period: str | Quantity | SupportsFloat | None = None,
         stiffness: str | SupportsFloat | None = None,
         damping_ratio: SupportsFloat | str | None = None,
-        damper: str | Quantity | None = None,
-        frequency_y: str | Quantity | None = None,
-        period_y: str | Quantity | None = None,
+        damper: str | Quantity | SupportsFloat | None = None,
+        frequency_y: str | Quantity | SupportsFloat | None = None,
+        period_y: str | Quantity | SupportsFloat | None = None,
         stiffness_y: str | SupportsFloat | None = None,
         damping_ratio_y: SupportsFloat | str | None = None,
-        damper_y: str | Quantity | None = None,
-        height: str | Quantity | None = None,
+        damper_y: str | Quantity | SupportsFloat | None = None,
+        height: str | Quantity | SupportsFloat | None = None,
     ) -> None:
         super().__init__(locals())
 
@@ -329,8 +329,8 @@ class Contents(Part):
         self,
         *,
         floor: int | None = None,
-        mass: str | Quantity | None = None,
-        weight: str | Quantity | None = None,
+        mass: str | Quantity | SupportsFloat | None = None,
+        weight: str | Quantity | SupportsFloat | None = None,
         static_friction: SupportsFloat | str | None = None,
         kinetic_friction: SupportsFloat | str | None = None,
     ) -> None:
@@ -360,8 +360,162 @@ class Frame(Part):
     def __init__(
         self,
         *,
-        period: str | Quantity | None = None,
-        period_y: str | Quantity | None = None,
+        period: str | Quantity | SupportsFloat | None = None,
+        period_y: str | Quantity | SupportsFloat | None = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class Structure(Part):
+    """A structure by its modes, instead of storeys: ``Model(structure=...)``; ``Model.from_modes`` makes one of matrices.
+
+    Parameters
+    ----------
+    mass
+        All of its mass.
+        Such as ``"325 kg"``.
+    weight
+        Its weight instead of its mass: mass = weight / g.
+        Such as ``"12 kN"``.
+    modes
+        Table of the modes, relative to the model file: period_s or frequency_hz, damping_ratio,
+        participation_x``, participation_y``, and the shape at each point, NAME_x``, NAME_y``.
+        Such as ``"modes.csv"``.
+    normalisation
+        "mass": shapes of unit modal mass (default); or the name of a point: shapes that are 1 there, with
+        effective masses.
+        Such as ``"mass"``.
+    damping_ratio
+        Ratio of critical damping of all modes, instead of their own.
+        Such as ``"6 %"``.
+    period_factor
+        Factor on the periods of all modes; default 1.
+        Such as ``"6 %"``.
+    along_y
+        "as-x": modes and points do along y what they do along x, as in a round tank or tower, instead of
+        what each says of y.
+    mode
+        Modes on a fixed base, the longest period first.
+    point
+        Points whose motion is wanted, from the block up.
+
+    Raises
+    ------
+    InputError
+        For a value of another kind or unit.
+    """
+
+    _PATH = "structure"
+
+    def __init__(
+        self,
+        *,
+        mass: str | Quantity | SupportsFloat | None = None,
+        weight: str | Quantity | SupportsFloat | None = None,
+        modes: str | None = None,
+        normalisation: str | None = None,
+        damping_ratio: SupportsFloat | str | None = None,
+        period_factor: SupportsFloat | str | None = None,
+        along_y: Literal["as-x"] | None = None,
+        mode: Sequence[Any] | None = None,
+        point: Sequence[Any] | None = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class Mode(Part):
+    """A mode of a structure: ``Structure(mode=[...])``.
+
+    Parameters
+    ----------
+    period
+        Its period.
+        Such as ``"0.01 s"``.
+    frequency
+        Its frequency.
+        Such as ``"1.6 Hz"``.
+    damping_ratio
+        Ratio of critical damping; needed unless that of all modes is given.
+        Such as ``"6 %"``.
+    effective_mass
+        Effective mass, L² of a shape of unit modal mass.
+        Such as ``"325 kg"``.
+    effective_mass_ratio
+        Effective mass over the mass of the structure.
+        Such as ``"6 %"``.
+    participation
+        Participation L = φᵀ M 1 of a shape of unit modal mass, in √kg; of shapes that are 1 at a point the
+        participation factor, beside the effective mass.
+        Such as ``"6 %"``.
+    effective_mass_y
+        Effective mass along y.
+        Such as ``"325 kg"``.
+    effective_mass_ratio_y
+        Effective mass along y over the mass of the structure.
+        Such as ``"6 %"``.
+    participation_y
+        Participation along y, with the sign that belongs to the shape.
+        Such as ``"6 %"``.
+
+    Raises
+    ------
+    InputError
+        For a value of another kind or unit.
+    """
+
+    _PATH = "structure.mode"
+
+    def __init__(
+        self,
+        *,
+        period: str | Quantity | SupportsFloat | None = None,
+        frequency: str | Quantity | SupportsFloat | None = None,
+        damping_ratio: SupportsFloat | str | None = None,
+        effective_mass: str | Quantity | SupportsFloat | None = None,
+        effective_mass_ratio: SupportsFloat | str | None = None,
+        participation: SupportsFloat | str | None = None,
+        effective_mass_y: str | Quantity | SupportsFloat | None = None,
+        effective_mass_ratio_y: SupportsFloat | str | None = None,
+        participation_y: SupportsFloat | str | None = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class Point(Part):
+    """A point of a structure whose motion is wanted: ``Structure(point=[...])``.
+
+    Parameters
+    ----------
+    name
+        Its name in results.
+        Such as ``"roof"``.
+    height
+        Height above the block: drift ratio and overturning are reported.
+        Such as ``"150 mm"``.
+    mass
+        Its share of the mass, of whose inertia the overturning moment is made.
+        Such as ``"325 kg"``.
+    shape
+        Shapes of the modes at this point, one a mode.
+    shape_y
+        The same along y.
+
+    Raises
+    ------
+    InputError
+        For a value of another kind or unit.
+    """
+
+    _PATH = "structure.point"
+
+    def __init__(
+        self,
+        *,
+        name: str | None = None,
+        height: str | Quantity | SupportsFloat | None = None,
+        mass: str | Quantity | SupportsFloat | None = None,
+        shape: Sequence[Any] | None = None,
+        shape_y: Sequence[Any] | None = None,
     ) -> None:
         super().__init__(locals())
 
@@ -404,13 +558,13 @@ class Sine(Part):
     def __init__(
         self,
         *,
-        frequency: str | Quantity | None = None,
-        amplitude: str | Quantity | None = None,
-        duration: str | Quantity | None = None,
-        dt: str | Quantity | None = None,
-        phase: str | Quantity | None = None,
-        ramp: str | Quantity | None = None,
-        decay: str | Quantity | None = None,
+        frequency: str | Quantity | SupportsFloat | None = None,
+        amplitude: str | Quantity | SupportsFloat | None = None,
+        duration: str | Quantity | SupportsFloat | None = None,
+        dt: str | Quantity | SupportsFloat | None = None,
+        phase: str | Quantity | SupportsFloat | None = None,
+        ramp: str | Quantity | SupportsFloat | None = None,
+        decay: str | Quantity | SupportsFloat | None = None,
     ) -> None:
         super().__init__(locals())
 
@@ -455,14 +609,14 @@ class Sweep(Part):
     def __init__(
         self,
         *,
-        from_: str | Quantity | None = None,
-        to: str | Quantity | None = None,
+        from_: str | Quantity | SupportsFloat | None = None,
+        to: str | Quantity | SupportsFloat | None = None,
         kind: Literal["linear", "logarithmic"] | None = None,
-        amplitude: str | Quantity | None = None,
-        duration: str | Quantity | None = None,
-        dt: str | Quantity | None = None,
-        ramp: str | Quantity | None = None,
-        decay: str | Quantity | None = None,
+        amplitude: str | Quantity | SupportsFloat | None = None,
+        duration: str | Quantity | SupportsFloat | None = None,
+        dt: str | Quantity | SupportsFloat | None = None,
+        ramp: str | Quantity | SupportsFloat | None = None,
+        decay: str | Quantity | SupportsFloat | None = None,
     ) -> None:
         super().__init__(locals())
 
@@ -499,10 +653,10 @@ class Pulse(Part):
         self,
         *,
         shape: Literal["half-sine", "rectangular", "triangular"] | None = None,
-        amplitude: str | Quantity | None = None,
-        duration: str | Quantity | None = None,
-        start: str | Quantity | None = None,
-        dt: str | Quantity | None = None,
+        amplitude: str | Quantity | SupportsFloat | None = None,
+        duration: str | Quantity | SupportsFloat | None = None,
+        start: str | Quantity | SupportsFloat | None = None,
+        dt: str | Quantity | SupportsFloat | None = None,
     ) -> None:
         super().__init__(locals())
 
@@ -535,8 +689,8 @@ class Initial(Part):
     def __init__(
         self,
         *,
-        sliding_displacement: str | Sequence[Any] | Quantity | None = None,
-        sliding_velocity: str | Sequence[Any] | Quantity | None = None,
+        sliding_displacement: str | Sequence[Any] | Quantity | SupportsFloat | None = None,
+        sliding_velocity: str | Sequence[Any] | Quantity | SupportsFloat | None = None,
         storey_displacement: Sequence[Any] | None = None,
         storey_velocity: Sequence[Any] | None = None,
     ) -> None:
@@ -569,7 +723,7 @@ class Analysis(Part):
         self,
         *,
         method: Literal["exact", "stepwise"] | None = None,
-        gravity: str | Quantity | None = None,
-        tail: str | Quantity | None = None,
+        gravity: str | Quantity | SupportsFloat | None = None,
+        tail: str | Quantity | SupportsFloat | None = None,
     ) -> None:
         super().__init__(locals())

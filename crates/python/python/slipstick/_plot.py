@@ -70,7 +70,7 @@ class Plotter:
         _shade(ax, knots)
         for i, axis in enumerate(self._along(along, "both")):
             s = 1e3 * _of_axis(knots, "sliding_displacement_m", axis)
-            ax.plot(time, s, **{**({"label": _said(axis)} if axis else {}), **kwargs})
+            ax.plot(time, s, **style(kwargs, label=_said(axis) or None))
             at = int(np.argmax(np.abs(s)))
             peak = f"peak{_said(axis, ' ')} {s[at]:.4g} mm"
             ax.plot(time[at], s[at], "o", ms=4, color=f"C{3 + i}", label=peak)
@@ -90,8 +90,8 @@ class Plotter:
         parts = [("table", "table_acceleration_m_per_s2"), ("block", "block_acceleration_m_per_s2")]
         parts += self._points("acceleration_m_per_s2")[-1:]
         for label, name in parts:
-            style = {"lw": 0.8, "label": label, **({"color": "0.7"} if label == "table" else {})}
-            ax.plot(time, _of_axis(knots, name, axis) / G, **{**style, **kwargs})
+            of_table = {"color": "0.7"} if label == "table" else {}
+            ax.plot(time, _of_axis(knots, name, axis) / G, **style(kwargs, lw=0.8, label=label, **of_table))
         ax.legend(loc="best", frameon=False)
         ax.set(xlabel="time [s]", ylabel=f"acceleration{_said(axis, ' ')} [g]")
         ax.margins(x=0)
@@ -128,8 +128,8 @@ class Plotter:
             if apart and len(axes) == 1:
                 ax.plot(sliding, 1e-3 * friction, lw=0.6, color="0.6", label="friction alone")
             label = _said(axis) if len(axes) > 1 else "slider"
-            style = {"lw": 0.9, "color": f"C{i}", **({"label": label} if apart or len(axes) > 1 else {})}
-            ax.plot(sliding, 1e-3 * force, **{**style, **kwargs})
+            said = label if apart or len(axes) > 1 else None
+            ax.plot(sliding, 1e-3 * force, **style(kwargs, lw=0.9, color=f"C{i}", label=said))
         if ax.get_legend_handles_labels()[0]:
             ax.legend(loc="best", frameon=False)
         said = _said(axes[0], " ") if len(axes) == 1 else ""
@@ -149,7 +149,7 @@ class Plotter:
         if "sliding_displacement_y_m" not in knots:
             raise ValueError("expected a response in two directions, found one in one")
         x, y = (1e3 * knots[f"sliding_displacement{axis}_m"] for axis in ("", "_y"))
-        ax.plot(x, y, **{"lw": 0.9, **kwargs})
+        ax.plot(x, y, **style(kwargs, lw=0.9))
         at = int(np.argmax(np.hypot(x, y)))
         ax.plot(x[at], y[at], "o", ms=4, color="C3", label=f"peak {np.hypot(x[at], y[at]):.4g} mm")
         gap = response.model.value("slider.gap")
@@ -192,7 +192,7 @@ class Plotter:
                     below[part or "x"] = floor
             drift = moved[0] if len(moved) == 1 else np.hypot(*moved)
             called = label if of_structure or not label.startswith("floor ") else f"storey {number}"
-            ax.plot(knots["time_s"], 1e3 * drift, **{"lw": 0.8, "label": called, **kwargs})
+            ax.plot(knots["time_s"], 1e3 * drift, **style(kwargs, lw=0.8, label=called))
         if not ax.lines:
             raise ValueError("expected a model with storeys or points, found one without")
         what = "displacement over the block" if of_structure else "drift"
@@ -201,17 +201,17 @@ class Plotter:
     def surfaces(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
         """Displacement of every surface in series over time, and of all together."""
         knots, ax = self._response.knots, axes_or_new(ax)
-        together = {"color": "0.7", "lw": 2, "label": "together", **kwargs}
+        together = style(kwargs, color="0.7", lw=2, label="together")
         ax.plot(knots["time_s"], 1e3 * knots["sliding_displacement_m"], **together)
         for number, surface in enumerate(_numbered(knots, "surface"), 1):
-            ax.plot(knots["time_s"], 1e3 * surface, **{"lw": 0.8, "label": f"surface {number}", **kwargs})
+            ax.plot(knots["time_s"], 1e3 * surface, **style(kwargs, lw=0.8, label=f"surface {number}"))
         return _over_time(ax, "displacement [mm]")
 
     def contents(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
         """Displacement of what slides on the floors over time, each over its floor."""
         knots, ax = self._response.knots, axes_or_new(ax)
         for number, contents in enumerate(_numbered(knots, "contents"), 1):
-            ax.plot(knots["time_s"], 1e3 * contents, **{"lw": 0.8, "label": f"contents {number}", **kwargs})
+            ax.plot(knots["time_s"], 1e3 * contents, **style(kwargs, lw=0.8, label=f"contents {number}"))
         return _over_time(ax, "displacement over the floor [mm]")
 
     def demand(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
@@ -223,12 +223,12 @@ class Plotter:
         knots = response.knots
         _shade(ax, knots)
         (axis,) = self._along(None, "x")
-        ax.plot(knots["time_s"], 1e-3 * knots["friction_force_n"], **{"lw": 0.8, **kwargs})
+        ax.plot(knots["time_s"], 1e-3 * knots["friction_force_n"], **style(kwargs, lw=0.8))
         if not axis and response.motion.vertical_m_per_s2 is None:
             fixed, kinetic = response._core._friction_limits()
-            for (positive, negative), style in [(fixed, "--"), (kinetic, ":")]:
+            for (positive, negative), dashes in [(fixed, "--"), (kinetic, ":")]:
                 for value in [-positive, negative]:
-                    ax.axhline(1e-3 * value, color="0.4", ls=style, lw=0.8)
+                    ax.axhline(1e-3 * value, color="0.4", ls=dashes, lw=0.8)
         return _over_time(ax, f"friction force{_said(axis, ' ')} [kN]")
 
     def floor_spectra(self, ax: Axes | None = None, *, along: str | None = None, **kwargs: Any) -> Axes:
@@ -258,7 +258,7 @@ class Plotter:
         lines += list(zip(called, spectra["storeys_acceleration_m_per_s2"]))
         for label, values in lines:
             if values:
-                ax.plot(periods, np.asarray(values) / G, **{"label": label, **kwargs})
+                ax.plot(periods, np.asarray(values) / G, **style(kwargs, label=label))
         ax.set_xscale("log")
         ax.set(xlabel="period [s]", ylabel=f"spectral acceleration{said} [g]")
         ax.legend(loc="best", frameon=False)
@@ -368,8 +368,8 @@ def draw_motion(motion: Motion, ax: Axes | None = None, **kwargs: Any) -> NDArra
         axes = [ax]
     for at, (label, name, unit) in zip(axes, drawn):
         for component, one in parts.items():
-            style = {"lw": 0.8, "label": f"along {component}" if component != "vertical" else component}
-            at.plot(one.time_s, getattr(one, name) / unit, **{**style, **kwargs})
+            said = f"along {component}" if component != "vertical" else component
+            at.plot(one.time_s, getattr(one, name) / unit, **style(kwargs, lw=0.8, label=said))
         at.set(ylabel=label)
         at.margins(x=0)
     if len(parts) > 1:
@@ -425,7 +425,7 @@ def draw_fragility(table: Table, summary: Mapping[str, Any], ax: Axes | None = N
     names = [name for name in table if name not in ("level", "probability", "band_low", "band_high")]
     level, unit = _in_units(table, "level")
     for said, rows in _groups(table, names):
-        (line,) = ax.plot(level[rows], table["probability"][rows], **{"label": said or "fitted", **kwargs})
+        (line,) = ax.plot(level[rows], table["probability"][rows], **style(kwargs, label=said or "fitted"))
         low, high = table["band_low"][rows], table["band_high"][rows]
         band = None if said else _band_of(summary)
         ax.fill_between(level[rows], low, high, alpha=0.2, lw=0.0, color=line.get_color(), label=band)
@@ -444,12 +444,12 @@ def draw_front(table: Table, ax: Axes | None = None, **kwargs: Any) -> Axes:
     """Designs that no other beats: acceleration over displacement; with bounds of friction those beside them."""
     ax = axes_or_new(ax)
     for suffix, words, marker in [
-        ("", "nominal friction", "o-"), ("_lower_friction", "lower friction", "v"), ("_upper_friction", "upper friction", "^")
+        ("", "nominal friction", "o"), ("_lower_friction", "lower friction", "v"), ("_upper_friction", "upper friction", "^")
     ]:
         if f"displacement_m{suffix}" in table:
             x, across = _in_units(table, f"displacement_m{suffix}")
             y, up = _in_units(table, f"acceleration_m_per_s2{suffix}")
-            ax.plot(x, y, marker, **{"label": words, "ms": 4, "lw": 0.8, **kwargs})
+            ax.plot(x, y, **style(kwargs, marker=marker, ls="-" if not suffix else "", label=words, ms=4, lw=0.8))
             ax.set(xlabel=f"sliding displacement [{across}]", ylabel=f"floor acceleration [{up}]")
     if len(ax.lines) > 1:
         ax.legend(loc="best", frameon=False)
@@ -467,11 +467,13 @@ def draw_fractiles(table: Table, demand: str | None, ax: Axes | None = None, **k
     along = [name for name in varied if table.units.get(name) is not None or not isinstance(table[name][0], str)]
     x = along[-1]
     names = [name for name in varied if name != x and len(set(table[name])) > 1]
-    for i, (said, rows) in enumerate(_groups(table, names)):
-        for share, style in [("16", ":"), ("50", "-"), ("84", "--")]:
+    groups = _groups(table, names)
+    colours = distinct(len(groups))
+    for i, (said, rows) in enumerate(groups):
+        for share, dashes in [("16", ":"), ("50", "-"), ("84", "--")]:
             y, up = _in_units(table, f"{chosen}_p{share}")
             label = f"{share} %" if not said else said if share == "50" else None
-            ax.plot(table[x][rows], y[rows], style, **{"color": f"C{i}", "label": label, **kwargs})
+            ax.plot(table[x][rows], y[rows], **style(kwargs, ls=dashes, color=colours[i], label=label))
     ax.set(xlabel=_titled(table, x), ylabel=_labelled(_words(chosen), up))
     ax.legend(loc="best", frameon=False, title="dotted 16 %, dashed 84 %" if names else None)
     return ax
@@ -485,7 +487,7 @@ def draw_ida(table: Table, summary: Mapping[str, Any], ax: Axes | None = None, *
     y, up = _in_units(table, "level")
     names = [name for name in table if name in ("record", "friction") or name in _paths_of(table)]
     for _, rows in _groups(table, names):
-        ax.plot(np.abs(x[rows]), y[rows], **{"color": "0.5", "lw": 0.8, **kwargs})
+        ax.plot(np.abs(x[rows]), y[rows], **style(kwargs, color="0.5", lw=0.8))
     limit = summary.get("limit")
     if limit is not None:
         ax.axvline(limit / _SHOWN.get(table.units.get(demand, ""), ("", 1.0))[1], color="C3", ls="--", label="limit")
@@ -499,7 +501,7 @@ def draw_runs(table: Table, x: str, y: str, ax: Axes | None = None, **kwargs: An
     ax = axes_or_new(ax)
     values, up = _in_units(table, y)
     for said, rows in _groups(table, [name for name in ("model", "friction") if name in table and len(set(table[name])) > 1]):
-        ax.plot(np.asarray(table[x])[rows], values[rows], ".", **{**({"label": said} if said else {}), **kwargs})
+        ax.plot(np.asarray(table[x])[rows], values[rows], **style(kwargs, ls="", marker=".", label=said or None))
     if len(ax.lines) > 1:
         ax.legend(loc="best", frameon=False)
     if isinstance(table[x][0], str):
@@ -539,12 +541,13 @@ def draw_table(table: Table, x: str, y: str, by: str | None = None, ax: Axes | N
     """One column over another: points, or lines where x rises for each value of a third."""
     ax = axes_or_new(ax)
     groups = [None] if by is None else list(dict.fromkeys(table[by]))
-    for group in groups:
+    for group, colour in zip(groups, distinct(len(groups))):
         rows = [True] * len(table) if by is None else [value == group for value in table[by]]
         one, other = (np.asarray(table[name])[rows] for name in (x, y))
-        kind = "-" if len(one) > 1 and bool((np.diff(np.asarray(one, dtype=float)) > 0.0).all()) else "."
-        style = {} if by is None else {"label": str(group)}
-        ax.plot(one, other, kind, **{**style, **kwargs})
+        rises = len(one) > 1 and bool((np.diff(np.asarray(one, dtype=float)) > 0.0).all())
+        kind = {"ls": "-"} if rises else {"ls": "", "marker": "."}
+        of_group = {} if by is None else {"label": str(group), "color": colour}
+        ax.plot(one, other, **style(kwargs, **kind, **of_group))
     ax.set(xlabel=_titled(table, x), ylabel=_titled(table, y))
     if by is not None and len(groups) <= 12:
         ax.legend(loc="best", frameon=False, title=by)
@@ -556,7 +559,7 @@ def _titled(table: Table, name: str) -> str:
 
 
 #: Units of measured quantities as figures show them, with what one of them is in SI
-_SHOWN = {"m": ("mm", 1e-3), "m/s2": ("g", G), "N": ("kN", 1e3)}
+_SHOWN = {"m": ("mm", 1e-3), "m/s²": ("g", G), "N": ("kN", 1e3)}
 
 
 def draw_curve(name: str, curve: Table, ax: Axes | None = None, **kwargs: Any) -> Axes:
@@ -567,8 +570,8 @@ def draw_curve(name: str, curve: Table, ax: Axes | None = None, **kwargs: Any) -
     x, first, second = columns[1:4] if loop else columns[:3]
     unit, in_si = _SHOWN.get(curve.units.get(first, ""), (curve.units.get(first, ""), 1.0))
     across = 1e3 * curve[x] if loop else curve[x]
-    ax.plot(across, curve[first] / in_si, **{"color": "0.7", "lw": 2.5, "label": "measured", **kwargs})
-    computed = {"color": "C0", "lw": 0.9, "label": second.removesuffix("_n"), **kwargs}
+    ax.plot(across, curve[first] / in_si, **style(kwargs, color="0.7", lw=2.5, label="measured"))
+    computed = style(kwargs, color="C0", lw=0.9, label=second.removesuffix("_n"))
     ax.plot(across, curve[second] / in_si, **computed)
     quantity = "force" if loop else name.replace("_", " ")
     ax.set(xlabel="displacement [mm]" if loop else "time [s]", ylabel=f"{quantity} [{unit}]")
@@ -588,6 +591,24 @@ def draw_curves(curves: Mapping[str, Table], **kwargs: Any) -> NDArray[np.object
     )
     axes = [draw_curve(name, curve, ax, **kwargs) for (name, curve), ax in zip(curves.items(), grid[:, 0])]
     return np.array(axes, dtype=object)
+
+
+def style(given: Mapping[str, Any], **usual: Any) -> dict[str, Any]:
+    """How a line is drawn: as usual but for what is given, in whichever of Matplotlib's words (``lw``, ``linewidth``)."""
+    from matplotlib.cbook import normalize_kwargs
+    from matplotlib.lines import Line2D
+
+    merged = {**normalize_kwargs(usual, Line2D), **normalize_kwargs(dict(given), Line2D)}
+    return {name: value for name, value in merged.items() if name != "label" or value is not None}
+
+
+def distinct(count: int) -> list[Any]:
+    """Colours that differ, as many as there are lines."""
+    if count <= 10:
+        return [f"C{i}" for i in range(count)]
+    from matplotlib import colormaps
+
+    return [colormaps["turbo"](0.05 + 0.9 * i / (count - 1)) for i in range(count)]
 
 
 def axes_or_new(ax: Axes | None) -> Axes:

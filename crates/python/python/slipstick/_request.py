@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from math import isfinite, isnan
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
 
@@ -12,26 +13,40 @@ from ._errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    Values = str | Sequence[str] | Sequence[float]
+    #: Texts with their units, or numbers in SI: alone, in a list, an array, a column of a frame
+    Values = str | float | Sequence[Any] | Iterable[Any]
     Varied = str | Mapping[str, Values]
     Columns = str | PathLike[str] | Mapping[str, str]
 
 
 def given(kind: str, asked: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """Return the fields among what is asked as texts; what is left out has its default in the core."""
+    """Return the fields among what is asked as texts; what is left out has its default in the core.
+
+    Bare numbers of what has a dimension are in SI.
+    """
     texts: list[tuple[str, str]] = []
-    for name, many, *_ in _core.fields(kind):
+    about = {name: asked.get(name) for name in ("demand", "measure")}
+    of = {name: value if isinstance(value, str) else None for name, value in about.items()}
+    for name, many, is_range, *_ in _core.fields(kind):
         value = asked.get(name)
         if value is None:
             continue
+
+        def unit(key: str = "", name: str = name) -> str:
+            return _core.unit_in(kind, name, key, of["demand"], of["measure"])
+
         if isinstance(value, Mapping):
             of_field = [
-                path if ends is None else f"{path}={joined(name, ends)}" for path, ends in value.items()
+                str(path) if ends is None else f"{path}={joined(f'{name} {path}', ends, unit(str(path)), is_range)}"
+                for path, ends in value.items()
             ]
+        elif hasattr(value, "columns"):
+            expected = "values by path, {path: values}, of which every combination is run"
+            raise wrong(name, expected, "a frame, whose rows belong together: demands and Plan take it")
         elif many and several(value):
-            of_field = [text_of(name, item) for item in list(value)]
+            of_field = [text_of(name, item, unit()) for item in list(value)]
         else:
-            of_field = [joined(name, value)]
+            of_field = [joined(name, value, unit(), is_range)]
         texts += [(name, text) for text in of_field]
     return texts
 
@@ -50,21 +65,36 @@ def several(value: Any) -> bool:
     return isinstance(value, Sequence) or getattr(value, "ndim", 0) > 0
 
 
-def joined(name: str, values: Any) -> str:
-    """One text of a value or several."""
-    if several(values):
-        return ", ".join(text_of(name, value) for value in values)
-    return text_of(name, values)
+def joined(name: str, values: Any, unit: str = "", is_range: bool = False) -> str:
+    """One text of a value or several; of two ends of a range with dots between."""
+    if not several(values):
+        return text_of(name, values, unit)
+    texts = [text_of(name, value, unit, row) for row, value in enumerate(values)]
+    return ("..".join if is_range and len(texts) == 2 else ", ".join)(texts)
 
 
-def text_of(name: str, value: Any) -> str:
-    """The text of one value."""
+def text_of(name: str, value: Any, unit: str = "", row: int | None = None) -> str:
+    """The text of one value, perhaps in a row of a list; a bare number is in a unit, where there is one."""
     if isinstance(value, PathLike):
         return str(fspath(value))
     plain = _core.plain(name, value)
     if plain is None:
         raise wrong(name, "a number or text", type(value).__name__)
-    return str(plain).lower() if isinstance(plain, bool) else str(plain)
+    if isinstance(plain, bool):
+        return str(plain).lower()
+    if isinstance(plain, float) and not isfinite(plain):
+        found = "NaN" if isnan(plain) else str(plain)
+        raise wrong(name, "finite numbers", found if row is None else f"{found} in row {row}")
+    return str(plain) if isinstance(plain, str) or not unit else f"{plain!r} {unit}"
+
+
+def a_model(given: object, argument: str = "model") -> None:
+    """Refuses what is no model."""
+    if isinstance(given, _core.Model):
+        return
+    is_path = isinstance(given, (str, PathLike))
+    found = f"the path {str(given)!r} (Model.read reads it)" if is_path else type(given).__name__
+    raise wrong(argument, "a Model", found)
 
 
 def wrong(name: str, expected: str, found: str) -> InputError:

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, overload
 
 from . import _core
-from ._request import wrong
-from ._result import in_a_line, in_html, warn_of
-from ._table import Columns, Event, Events
+from ._obspy import is_stream
+from ._records import named
+from ._request import a_model, wrong
+from ._result import figures_of, in_a_line, in_html, warn_of
+from ._table import Columns, Event, Events, Table
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -22,7 +24,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ._assessment import Assessment
+    from ._obspy import Stream, Trace
     from ._plot import Plotter
+    from ._records import Recorded, Records
 
 
 @overload
@@ -36,11 +40,20 @@ def run(
 ) -> Response: ...
 @overload
 def run(
-    model: _core.Model, motion: Mapping[str, _core.Motion], *, floor_spectrum: bool = False
+    model: _core.Model, motion: Mapping[str, Recorded] | Sequence[Recorded], *, floor_spectrum: bool = False
 ) -> Assessment: ...
+@overload
 def run(
     model: _core.Model,
-    motion: _core.Motion | Mapping[str, _core.Motion] | None = None,
+    motion: Trace | Stream,
+    *,
+    floor_spectrum: bool = False,
+    history: bool = True,
+    check: bool = True,
+) -> Response | Assessment: ...
+def run(
+    model: _core.Model,
+    motion: Records | None = None,
     *,
     floor_spectrum: bool = False,
     history: bool = True,
@@ -53,8 +66,8 @@ def run(
     model
         The model; its ``analysis.method`` and ``analysis.tail`` hold.
     motion
-        The motion of the table; the model's own if left out. Several by name are a suite, of which the answer
-        is that of ``suite``.
+        The motion of the table, or a trace of ObsPy, or a stream of one station; the model's own if left out. Several
+        by name, in a list or in a stream are a suite, of which the answer is that of ``suite``.
     floor_spectrum
         Whether response spectra of table, block and floors are wanted in ``summary``; in two directions RotD100,
         and those along x and along y.
@@ -92,16 +105,25 @@ def run(
     >>> float(abs(response.knots["friction_force_n"]).max()) == 0.1 * 325 * 9.80665
     True
     """
-    if isinstance(motion, Mapping):
+    if motion is not None and not isinstance(motion, _core.Motion):
+        a_model(model)
+        of = named("motion", motion)
+        if is_stream(motion) and len(of) == 1:
+            return run(model, *of.values(), floor_spectrum=floor_spectrum, history=history, check=check)
         from ._assessment import suite
 
         for name, asked in [("history", history), ("check", check)]:
             if asked is not True:
                 raise wrong(name, "one motion beside it", f"{asked} with several")
-        return suite(model, motion, floor_spectrum=floor_spectrum)
+        return suite(model, of, floor_spectrum=floor_spectrum)
+    a_model(model)
     core = _core.run(model, motion, floor_spectrum=floor_spectrum, history=history, check=check)
     warn_of(core._noticed())
     return Response(core, model, (floor_spectrum, history, check))
+
+
+#: Columns of the samples of a motion that is saved
+_SAMPLES = ("time_s", "acceleration_m_per_s2", "acceleration_y_m_per_s2", "vertical_acceleration_m_per_s2")
 
 
 class Response:
@@ -141,10 +163,7 @@ class Response:
     @cached_property
     def summary(self) -> dict[str, Any]:
         """Peaks, residuals, counts and all other figures, as ``slipstick run --json`` prints them."""
-        import json
-
-        figures: dict[str, Any] = json.loads(self._core._summary_json())
-        return figures
+        return figures_of(self._core._summary_json())
 
     @property
     def certificate(self) -> dict[str, Any]:
@@ -241,6 +260,60 @@ class Response:
         target = Path(path)
         target.write_text(self._core._report_html(units), encoding="utf-8")
         return target
+
+    def save(self, folder: str | PathLike[str]) -> Path:
+        """Write the files of ``slipstick run --out`` into a folder, and model and motion beside them.
+
+        Parameters
+        ----------
+        folder
+            The folder for ``summary.json``, ``history.csv``, ``events.csv`` and ``report.html``, which are those of the
+            command, and for ``model.toml``, ``motion.json`` and ``motion.parquet``, from which ``Response.read`` computes the
+            same response again.
+
+        Raises
+        ------
+        ValueError
+            For a response without history and check.
+        OSError
+            For files that cannot be written.
+        """
+        import json
+
+        _, parts = self.motion.__reduce__()
+        columns, told = parts[:4], parts[4:]
+        named = {name: of for name, of in zip(_SAMPLES, columns, strict=True) if of is not None}
+        beside = {"model.toml": self._model.toml, "motion.json": json.dumps([told, self._asked[0]], ensure_ascii=False)}
+        self._core._save(folder, list(beside.items()))
+        Table(named, {"time_s": "s", **{name: "m/s2" for name in _SAMPLES[1:] if name in named}}).write(Path(folder) / "motion.parquet")
+        return Path(folder)
+
+    @classmethod
+    def read(cls, folder: str | PathLike[str]) -> Response:
+        """Compute the response anew that ``save`` has written into a folder.
+
+        Parameters
+        ----------
+        folder
+            The folder.
+
+        Raises
+        ------
+        OSError, RecordError
+            For files that are not there, or are not those of ``save``.
+        """
+        import json
+
+        folder = Path(folder)
+        told, floor_spectrum = json.loads((folder / "motion.json").read_text(encoding="utf-8"))
+        table = Table.read(folder / "motion.parquet")
+        description, warnings, (factor, along_x, along_y) = told
+        time_s, x, y, up = (table.get(name) for name in _SAMPLES)
+        origin = (factor, tuple(along_x), None if along_y is None else tuple(along_y))
+        warned = [(kind, time, message) for kind, time, message in warnings]
+        motion = _core.Motion._from_parts(time_s, x, y, up, description, warned, origin)
+        model = _core.Model.from_toml((folder / "model.toml").read_text(encoding="utf-8"), "")
+        return run(model, motion, floor_spectrum=floor_spectrum)
 
     def _repr_html_(self) -> str:
         from html import escape

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, NoReturn, Self
 
 from ._errors import SlipstickWarning
 from ._table import Table
@@ -81,6 +81,42 @@ def svg_of(draw: Callable[..., Axes]) -> str:
     return text.getvalue()[text.getvalue().index("<svg") :]
 
 
+def _fixed(self: object, *given: object, **named: object) -> NoReturn:
+    raise TypeError("expected one's own copy, copy.deepcopy(summary): a result does not change")
+
+
+class _FixedDict(dict[str, Any]):
+    """A dict that does not change; its copies do."""
+
+    __setitem__ = __delitem__ = update = pop = popitem = clear = setdefault = __ior__ = _fixed
+
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        return dict, (list(self.items()),)
+
+
+class _FixedList(list[Any]):
+    """A list that does not change; its copies do."""
+
+    __setitem__ = __delitem__ = append = extend = insert = pop = remove = clear = sort = reverse = _fixed
+    __iadd__ = __imul__ = _fixed
+
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        return list, (tuple(self),)
+
+
+def figures_of(text: str) -> dict[str, Any]:
+    """The figures of a text in JSON, which do not change."""
+    import json
+
+    def fixed(value: Any) -> Any:
+        if isinstance(value, dict):
+            return _FixedDict({key: fixed(inner) for key, inner in value.items()})
+        return _FixedList([fixed(inner) for inner in value]) if isinstance(value, list) else value
+
+    figures: dict[str, Any] = fixed(json.loads(text))
+    return figures
+
+
 class Result:
     """Tables, figures, summary and report of some work."""
 
@@ -114,10 +150,7 @@ class Result:
     @property
     def summary(self) -> dict[str, Any]:
         """All figures, as the command prints them with ``--json``."""
-        import json
-
-        figures: dict[str, Any] = json.loads(self._tell("_summary_json"))
-        return figures
+        return figures_of(self._tell("_summary_json"))
 
     @property
     def holds(self) -> bool | None:

@@ -9,17 +9,21 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _core
-from ._assessment import components, read_suite
+from ._assessment import read_suite
 from ._errors import InputError, RecordError
-from ._request import several, text_of, wrong
+from ._progress import following
+from ._records import Suite, components
+from ._request import a_model, several, text_of, wrong
 from ._result import svg_of, warn_of
-from ._table import Table
+from ._table import Table, columns_of, is_frame, units_of, with_numbers
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from os import PathLike
 
     from matplotlib.axes import Axes
+
+    from ._progress import Progress
+    from ._records import Records
 
 
 class Study(NamedTuple):
@@ -34,6 +38,27 @@ class Study(NamedTuple):
     failures: int
     #: What a person should know
     notices: list[str]
+
+    @classmethod
+    def read(cls, folder: str | PathLike[str]) -> Study:
+        """Read what a study has written into its folder, without its plan.
+
+        Parameters
+        ----------
+        folder
+            That of ``study(plan, out)``, of ``slipstick study --out`` or of a cluster, concluded. Records go by the
+            names that its files have.
+
+        Raises
+        ------
+        OSError, RecordError
+            For a folder without the runs and the summary of a study.
+        """
+        read = _core.read_study(folder)
+        assert read.table is not None and read.summary is not None
+        return cls(
+            Table._of(read.table), with_numbers(Table._of(read.summary)), read.runs, read.failures, read.notices
+        )
 
     def plot(
         self,
@@ -84,23 +109,25 @@ class Plan:
     model
         The model.
     records
-        Motions by name, which rows keep, all in one direction or all in two; the model's own motion if left out,
-        which must then be a made one.
+        Motions by name, which rows keep, all in one direction or all in two, a list of them, one, or a stream of
+        ObsPy; the model's own motion if left out, which must then be a made one.
     second
         Other components of records in one direction, as many and in the same order, with one factor for the pair.
     pairs
         How pairs are run: ``"together"``, the table moving in two horizontal directions, or ``"separate"``, each
         component by itself; together if left out.
     vary
-        What is varied, as in a plan: ``{"slider.kinetic_friction": {"uniform": [0.02, 0.06]}}``; a list
-        is one of its values.
+        What is varied, as in a plan: ``{"slider.kinetic_friction": {"uniform": [0.02, 0.06]}}``; a list, an array or
+        a column of a frame is one of its values. Numbers are in SI, texts have their unit. A frame of any library
+        is a list of designs, a row each, its columns named by their paths.
     samples, seed, method
-        Number of samples, their seed, and ``"sobol"``, ``"latin-hypercube"`` or ``"grid"``.
+        Number of samples, their seed, and ``"sobol"``, ``"latin-hypercube"`` or ``"grid"``: every combination of lists,
+        which it is where there are nothing but lists and no number of samples.
     correlation
         Correlations of pairs of paths: ``[["slider.radius", "storey.1.mass", 0.3]]``.
     measure, levels, scale
-        Each record is scaled so that the measure takes each of the levels, ``["0.1 g", "0.2 g"]`` or
-        ``"0.1..0.4 g:4"``; or by each of the factors of ``scale``.
+        Each record is scaled so that the measure, PGA if left out, takes each of the levels, ``["0.1 g", "0.2 g"]``,
+        ``"0.1..0.4 g:4"`` or numbers in SI; or by each of the factors of ``scale``.
     bounds
         Which of the model's ``slider.bounds`` are run: ``"all"``, ``"lower"``, ``"nominal"``, ``"upper"``.
     name
@@ -122,29 +149,46 @@ class Plan:
     """
 
     model: _core.Model
-    records: Mapping[str, _core.Motion] | None = None
-    vary: Mapping[str, Any] = field(default_factory=dict)
+    records: Records | Suite | None = None
+    vary: Any = field(default_factory=dict)
     samples: int | None = None
     seed: int | None = None
-    method: str = "sobol"
+    method: str | None = None
     measure: str | None = None
-    levels: str | Sequence[str] | None = None
+    levels: str | Sequence[str] | Sequence[float] | None = None
     scale: Sequence[float] | None = None
     bounds: str | None = None
     name: str | None = None
-    second: Mapping[str, _core.Motion] | None = None
+    second: Records | None = None
     correlation: Sequence[Sequence[Any]] | None = None
     pairs: str | None = None
 
     def __post_init__(self) -> None:
+        a_model(self.model)
+        if isinstance(self.records, Suite):
+            names = {"scale_to": "levels"}
+            own = {name: getattr(self, names.get(name, name)) for name in ("second", "measure", "scale_to", "scale", "pairs")}
+            filled = self.records.fill(own)
+            filled["scale"] = [filled["scale"]] if isinstance(filled["scale"], (int, float)) else filled["scale"]
+            for name, value in [("records", self.records.records), *filled.items()]:
+                object.__setattr__(self, names.get(name, name), value)
         if self.records is not None:
-            components("records", self.records, self.second)
-        for of, beside, there in [
+            of_all = components("records", self.records, self.second)  # type: ignore[arg-type]
+            for name, of in zip(("records", "second"), of_all, strict=True):
+                if getattr(self, name) is not None:
+                    object.__setattr__(self, name, dict(of))
+        object.__setattr__(self, "vary", _by_path(self.vary))
+        if self.method is None and self.vary:
+            listed = all(several(value) or (isinstance(value, Mapping) and "values" in value) for value in self.vary.values())
+            if self.samples is None and not listed:
+                raise wrong("samples", "a number of samples beside distributions", "none")
+            object.__setattr__(self, "method", "grid" if self.samples is None else "sobol")
+        for arguments, beside, there in [
             (("measure", "levels", "scale", "second"), "records", bool(self.records)),
             (("pairs",), "second, or records in two directions,", self._of_pairs),
             (("samples", "seed", "correlation"), "vary", bool(self.vary)),
         ]:
-            for name in () if there else of:
+            for name in () if there else arguments:
                 if (value := getattr(self, name)) is not None:
                     raise wrong(name, f"{beside} beside it", repr(list(value) if isinstance(value, Mapping) else value))
 
@@ -212,7 +256,8 @@ class Plan:
     @property
     def _in_two(self) -> bool:
         """Whether records are in two directions."""
-        return any(motion.acceleration_y_m_per_s2 is not None for motion in (self.records or {}).values())
+        records: Mapping[str, _core.Motion] = self.records or {}  # type: ignore[assignment]
+        return any(motion.acceleration_y_m_per_s2 is not None for motion in records.values())
 
     @property
     def _of_pairs(self) -> bool:
@@ -221,8 +266,9 @@ class Plan:
     @property
     def _motions(self) -> tuple[Mapping[str, _core.Motion], Mapping[str, _core.Motion]]:
         """The records and their other components, which those in two directions have in themselves."""
-        records = self.records or {}
-        return records, records if self._in_two else self.second or {}
+        records: Mapping[str, _core.Motion] = self.records or {}  # type: ignore[assignment]
+        second: Mapping[str, _core.Motion] = self.second or {}  # type: ignore[assignment]
+        return records, records if self._in_two else second
 
     @property
     def _named(self) -> list[tuple[str, str, _core.Motion]]:
@@ -263,20 +309,24 @@ class Plan:
 
         text = rows({"name": self.name, "model": "model.toml", "bounds": self.bounds})
         if self.records is not None:
-            records = [_file("records", name) for name in self.records]
+            records = [_file("records", name) for name in self._motions[0]]
             second = [_file("second", name) for name in self._motions[1]] or None
-            levels = self.levels
+            levels: Any = self.levels
+            measure = self.measure if levels is None else self.measure or "PGA"
             if isinstance(levels, str):
-                levels = _core.levels(levels, self.measure or "PGA")
-            measured = {"measure": self.measure, "levels": levels, "scale": self.scale}
+                levels = _core.levels(levels, measure or "")
+            elif levels is not None:
+                unit = _core.unit_of_measure(measure or "")
+                levels = [text_of("levels", level, unit, row) for row, level in enumerate(levels)]
+            measured = {"measure": measure, "levels": levels, "scale": self.scale}
             pairs = {"second": second, "pairs": self.pairs}
             # A channel that is named is taken whatever its file is called: "up" is a name here.
             text += ["[records]", *rows({"files": records, "channel": _CHANNEL, **pairs, **measured})]
         if self.vary:
-            varied = {k: v if isinstance(v, Mapping) else {"values": v} for k, v in self.vary.items()}
             counted = {"method": self.method, "count": self.samples, "seed": self.seed}
             sampling = {**counted, "correlation": self.correlation}
-            text += ["[vary]", *rows(varied), "[sampling]", *rows(sampling)]
+            varied = [f"{_toml(str(path))} = {_distribution(path, value)}" for path, value in self.vary.items()]
+            text += ["[vary]", *varied, "[sampling]", *rows(sampling)]
         return "\n".join(text) + "\n"
 
 
@@ -285,7 +335,7 @@ def study(
     out: str | PathLike[str] | None = None,
     *,
     jobs: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
+    progress: Progress | None = None,
     force: bool = False,
 ) -> Study:
     """Run a study.
@@ -300,7 +350,8 @@ def study(
     jobs
         Number of threads; as many as the machine has if left out or -1.
     progress
-        Called with the runs done and planned, some twenty times a second.
+        Called with the runs done and planned, some twenty times a second; or a bar of tqdm, or its class. In a terminal a
+        line says how far the work is if left out, False is nobody.
     force
         Whether parts in the folder are removed first.
 
@@ -328,8 +379,8 @@ def study(
         path = plan.write(new_folder()) if isinstance(plan, Plan) else Path(plan)
         folder = new_folder() if out is None else Path(out)
         named = plan._named if isinstance(plan, Plan) else []
-        with _said_of(plan, path.parent):
-            done = _core.study(path, folder, motions=named, jobs=jobs, progress=progress, force=force)
+        with _said_of(plan, path.parent), following(progress) as on:
+            done = _core.study(path, folder, motions=named, jobs=jobs, progress=on, force=force)
     table, summary = done.table, done.summary
     assert table is not None and summary is not None
     if done.failures:
@@ -416,6 +467,37 @@ def _csv(motion: _core.Motion, *, along_y: bool = False) -> str:
         columns["vertical_acceleration_m_per_s2"] = motion.vertical_m_per_s2
     rows = zip(*(column.tolist() for column in columns.values()), strict=True)
     return "\n".join([",".join(columns), *(",".join(map(repr, row)) for row in rows)]) + "\n"
+
+
+#: Keys of a distribution, and how many of their numbers are values of its path; all where there is no end
+_OF_PATH = {"values": None, "linspace": 2, "logspace": 2, "uniform": 2, "normal": 2, "lognormal": 1, "truncated": 2}
+
+
+def _distribution(path: str, given: Any) -> str:
+    """How a path is varied, as a plan has it; bare numbers of what has a dimension are in SI."""
+    of = dict(given) if isinstance(given, Mapping) else {"values": given}
+    unit = "" if "factor_of" in of else _core.unit_at(path)
+    for key, count in _OF_PATH.items():
+        if unit and several(of.get(key)):
+            values = list(of[key])
+            of_path = [text_of(f"vary.{path}", value, unit, row) for row, value in enumerate(values[:count])]
+            of[key] = of_path + (values[count:] if count is not None else [])
+    return _toml(of)
+
+
+def _by_path(vary: Any) -> dict[str, Any]:
+    """What is varied, by paths: rows of a frame belong together."""
+    if isinstance(vary, Mapping):
+        return dict(vary)
+    if not is_frame(vary):
+        raise wrong("vary", "values by path, {path: values}, or a frame of designs", type(vary).__name__)
+    units, columns = units_of(vary), columns_of(vary)
+    found: dict[str, Any] = {}
+    for path, values in columns:
+        unit = units.get(path, "")
+        of: dict[str, Any] = {"values": [text_of(path, value, unit) if unit else value for value in values]}
+        found[path] = {**of, "paired_with": next(iter(found))} if found else of
+    return found
 
 
 def _toml(value: Any) -> str:

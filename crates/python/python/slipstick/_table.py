@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, Self
 
@@ -12,6 +13,8 @@ from . import _core
 from ._request import wrong
 
 if TYPE_CHECKING:
+    from os import PathLike
+
     import pandas as pd
     import xarray as xr
     from matplotlib.axes import Axes
@@ -94,6 +97,33 @@ class Table:
     def to_csv(self) -> str:
         """Write the table as the text of a CSV file."""
         return self._core.to_csv()
+
+    def write(self, path: str | PathLike[str]) -> Path:
+        """Write the table as a file, CSV or Parquet by the end of its name; Parquet keeps units and every bit.
+
+        Parameters
+        ----------
+        path
+            The file, ``"runs.parquet"``, which is replaced.
+        """
+        self._core.write(path)
+        return Path(path)
+
+    @classmethod
+    def read(cls, path: str | PathLike[str]) -> Table:
+        """Read a table in CSV or Parquet, such as the commands write.
+
+        Parameters
+        ----------
+        path
+            The file.
+
+        Raises
+        ------
+        RecordError, OSError
+            For a file that is no table, and one that cannot be read.
+        """
+        return with_numbers(Table._of(_core.Table.read(path)))
 
     def to_pandas(self) -> pd.DataFrame:
         """The table as a data frame, units in its ``attrs``.
@@ -285,8 +315,11 @@ def columns_of(frame: Any) -> list[tuple[str, Any]]:
 
 
 def is_frame(value: Any) -> bool:
-    """Whether a value has columns by name."""
-    return any(hasattr(value, name) for name in ("keys", "columns", "column_names", "to_dataframe"))
+    """Whether a value has columns by name and is no plain dict: its rows belong together."""
+    if isinstance(value, Table):
+        return True
+    named = any(hasattr(value, name) for name in ("columns", "column_names", "to_dataframe"))
+    return named and not isinstance(value, Mapping)
 
 
 def units_of(frame: Any) -> dict[str, str]:
@@ -319,6 +352,28 @@ def _column(name: str, values: Any, unit: str) -> tuple[str, str, str, Any]:
     if kind == "texts":
         cells = ["" if cell is None else str(cell) for cell in cells]
     return name, unit, kind, cells
+
+
+#: Columns of names, which may look like numbers
+_NAMES = ("record", "pair", "channel")
+
+
+def with_numbers(table: Table) -> Table:
+    """A table of a text file, whose columns are numbers where all of their cells are."""
+
+    def read(name: str) -> Any:
+        values = table[name]
+        if isinstance(values, np.ndarray) or name in _NAMES or not any(isinstance(cell, str) and cell for cell in values):
+            return values
+        try:
+            return np.array([float(cell) if cell else np.nan for cell in values])
+        except ValueError:
+            return values
+
+    columns = {name: read(name) for name in table}
+    if all(columns[name] is table[name] for name in columns):
+        return table
+    return Table(columns, {name: table.units.get(name, _unit(name)) for name in columns})
 
 
 def _unit(name: str) -> str:

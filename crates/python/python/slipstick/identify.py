@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, Literal
 
 from . import _core
 from ._laboratory import Identified, several
+from ._progress import following
 from ._request import given
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Mapping, Sequence
 
     from ._laboratory import Measured
+    from ._progress import Progress
     from ._request import Columns
 
 __all__ = ["cyclic", "free_vibration", "shaking_table"]
@@ -23,14 +25,14 @@ __all__ = ["cyclic", "free_vibration", "shaking_table"]
 def cyclic(
     tests: Measured | Sequence[Measured],
     *,
-    mass: str | None = None,
-    normal_force: str | Sequence[str] | None = None,
-    area: str | None = None,
-    reference_pressure: str | None = None,
+    mass: str | float | None = None,
+    normal_force: str | float | Sequence[str] | Sequence[float] | None = None,
+    area: str | float | None = None,
+    reference_pressure: str | float | None = None,
     model: _core.Model | None = None,
     law: Literal["coulomb", "slow-fast-rate"] | None = None,
     without: Sequence[Literal["spring", "damper"]] = (),
-    slack: str | None = None,
+    slack: str | float | None = None,
     mapping: Columns | None = None,
 ) -> Identified:
     """Identify friction, spring and damper from cyclic tests: displacement and force over time.
@@ -96,8 +98,8 @@ def free_vibration(
     measured: Measured,
     *,
     channel: str | None = None,
-    start: str | None = None,
-    end: str | None = None,
+    start: str | float | None = None,
+    end: str | float | None = None,
     model: _core.Model | None = None,
     mapping: Columns | None = None,
 ) -> Identified:
@@ -143,14 +145,14 @@ def free_vibration(
 def shaking_table(
     measured: Measured,
     model: _core.Model,
-    fit: Sequence[str] | Mapping[str, str | None],
+    fit: Sequence[str] | Mapping[str, str | tuple[float, float] | None],
     *,
     using: Sequence[str] = (),
     instrument: Sequence[str] = (),
     seed: int | None = None,
     mapping: Columns | None = None,
     jobs: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
+    progress: Progress | None = None,
 ) -> Identified:
     """Identify keys of a model from a shaking-table record.
 
@@ -198,9 +200,8 @@ def _identified(
     model: _core.Model | None,
     asked: Mapping[str, object],
     jobs: int | None = 1,
-    progress: Callable[[int, int], object] | None = None,
+    progress: Progress | None = None,
 ) -> Identified:
     asked_for = given(kind, asked)
-    return Identified(
-        _core.identify(kind, several(tests), model, asked_for, jobs=jobs, progress=progress)
-    )
+    with following(progress) as on:
+        return Identified(_core.identify(kind, several(tests), model, asked_for, jobs=jobs, progress=on))

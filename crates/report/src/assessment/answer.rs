@@ -100,6 +100,15 @@ pub fn sheet(answer: &Answer, display: DisplayUnits) -> Sheet {
     sheet
 }
 
+/// What the table of runs is that a fragility was fitted to, as the list of files read gives it.
+#[must_use]
+pub fn kind_of_runs(answer: &Answer) -> &'static str {
+    match &answer.found {
+        Results::Fragility { curves: Curves::One(run), .. } => run.kind.name(),
+        _ => "runs",
+    }
+}
+
 /// The histories that a suite was asked for, each by the name of its file: record, model and bound where there are
 /// several.
 #[must_use]

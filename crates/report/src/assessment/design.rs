@@ -9,7 +9,7 @@ use slipstick::assessment::sensitivity::Index;
 use slipstick::notice::{Notice, NoticeKind};
 use slipstick::study::travel_used_up;
 
-use super::key::title;
+use super::key::{path_words, title};
 use super::sheet::{Sheet, cell, counted_as, failed};
 use crate::display::{DisplayUnits, Quantity, Unit};
 use crate::json::{each, pretty};
@@ -173,7 +173,7 @@ impl DesignReport<'_> {
         }
         if let Some(chosen) = self.run.found.chosen() {
             let values = self.values(chosen.design);
-            let edges: Vec<&str> = self
+            let edges: Vec<String> = self
                 .run
                 .variables
                 .iter()
@@ -182,7 +182,7 @@ impl DesignReport<'_> {
                     v.values.len() > 1
                         && (v.values.first() == Some(x) || v.values.last() == Some(x))
                 })
-                .map(|(v, _)| v.path.as_str())
+                .map(|(v, _)| name(v))
                 .collect();
             if !edges.is_empty() {
                 let message = format!(
@@ -196,7 +196,7 @@ impl DesignReport<'_> {
                 warn(
                     NoticeKind::NotRobust,
                     match robust {
-                        Some(_) => "the chosen design passes the gap with lower- or upper-bound friction; \
+                        Some(_) => "the chosen design exceeds the gap with lower- or upper-bound friction; \
                                     the robust one keeps it"
                             .to_owned(),
                         None => "no design of the front keeps the gap with lower- and upper-bound friction"
@@ -267,9 +267,9 @@ impl DesignReport<'_> {
     fn tables(&self) -> Vec<(String, Vec<Vec<String>>)> {
         let mut rows = vec![self.heads()];
         let main = self.run.found.chosen().or(self.run.found.nearest);
-        let name = if self.run.found.front.is_empty() { "nearest" } else { "chosen" };
+        let row = if self.run.found.front.is_empty() { "nearest" } else { "chosen" };
         if let Some(point) = main {
-            rows.extend(self.with_bounds(name, &point));
+            rows.extend(self.with_bounds(row, &point));
         }
         if let Some(robust) = self.robust()
             && main != Some(robust)
@@ -314,7 +314,7 @@ impl DesignReport<'_> {
                         i.total_interval[1],
                     ];
                     let numbers = numbers.map(|x| format!("{x:.3}"));
-                    std::iter::once(v.path.clone()).chain(numbers).collect()
+                    std::iter::once(name(v)).chain(numbers).collect()
                 };
                 let rows = std::iter::once(heads.to_vec())
                     .chain(self.run.variables.iter().zip(indices).map(row))
@@ -439,15 +439,12 @@ impl DesignReport<'_> {
     }
 }
 
-/// The last words of a path that say enough.
+/// What is varied, as people read it.
 fn name(variable: &Axis) -> String {
-    match variable.path.split_once('.') {
-        Some(("slider", key)) => key.replace('_', " "),
-        _ => variable.path.clone(),
-    }
+    path_words(&variable.path)
 }
 
-/// The last words of a path that say enough, with the unit: `kinetic friction`, `radius (m)`.
+/// The same with its unit: `kinetic friction`, `radius (m)`.
 fn label(variable: &Axis) -> String {
     let name = name(variable);
     if variable.unit.is_empty() { name } else { format!("{name} ({})", variable.unit) }

@@ -280,8 +280,9 @@ impl HistoriesReport<'_> {
                 }
                 _ => format!("{} of {} records", model.statistic(), model.counted()),
             };
+            let beyond = self.beyond_gap(place, bound, &unit);
             Some(format!(
-                "{name}peak sliding displacement {} {} ({friction}{records}){gap}",
+                "{name}peak sliding displacement {} {} ({friction}{records}){gap}{beyond}",
                 cell(unit.of(value)),
                 unit.symbol
             ))
@@ -289,6 +290,34 @@ impl HistoriesReport<'_> {
         let all: Vec<String> = self.histories.models.iter().enumerate().filter_map(of).collect();
         let hazard = self.hazard.map_or(String::new(), |hazard| format!("{hazard}: "));
         hazard + &all.join("; ")
+    }
+
+    /// `, and 17 of 42 records exceed the gap, A_TMZ000 farthest with 412 mm`: over a suite, with the bound that governs.
+    fn beyond_gap(&self, place: usize, bound: &Bound, unit: &Unit) -> String {
+        let model = &self.histories.models[place];
+        let torsion = self.torsion(place).unwrap_or(1.0);
+        let bound = model.bounds.iter().position(|other| other == bound);
+        let (Some(peak), Some(bound), Some(gap_m)) =
+            (self.peaks().get(place).copied(), bound, model.gap_m)
+        else {
+            return String::new();
+        };
+        let Some((count, farthest, most)) = model
+            .beyond(gap_m / torsion, |on| on.size(&peak, bound))
+            .filter(|_| model.counted() > 1)
+        else {
+            return String::new();
+        };
+        let of = if model.of_pairs() { "pairs" } else { "records" };
+        let all = model.counted();
+        let exceed = match count {
+            0 => format!("none of {all} {of} exceeds"),
+            1 => format!("1 of {all} {of} exceeds"),
+            count => format!("{count} of {all} {of} exceed"),
+        };
+        let far = if count == 0 { "nearest" } else { "farthest" };
+        let (record, most) = (&farthest.record, cell(unit.of(torsion * most)));
+        format!(", and {exceed} the gap, {record} {far} with {most} {}", unit.symbol)
     }
 
     /// That the check does not confirm runs: how many, the first of them, and the demand.
@@ -567,8 +596,8 @@ impl HistoriesReport<'_> {
         let unanswered = failed(&unanswered, runs as u64, count_as);
         let far = self.far_factors().filter(|_| !self.scaled.is_empty());
         let passed = models.iter().flat_map(|model| self.passed(model));
-        let records = models.iter().flat_map(|model| &model.records);
-        let of_records = condensed(records.map(|on| (&on.record[..], &on.notices[..])));
+        let records: Vec<&OnRecord> = models.iter().flat_map(|model| &model.records).collect();
+        let of_records = self.of_records(&records);
         let of_suite = self.histories.notices.iter().cloned();
         let milder = self.factors.and_then(code::milder_than_code);
         let unconfirmed = models.iter().filter_map(|model| {
@@ -601,6 +630,28 @@ impl HistoriesReport<'_> {
         }
         Notice::sort(&mut all);
         all
+    }
+
+    /// What several records give notice of, each kind once: of what the slider comes to the end of, the record that
+    /// slides farthest is cited, else the first.
+    fn of_records(&self, records: &[&OnRecord]) -> Vec<Notice> {
+        let peak = self.histories.shape.find(SHOWN[0]).map(|(_, column)| column);
+        let reached_m = |on: &OnRecord| {
+            let sizes = (0..on.runs.len()).filter_map(|bound| Some(on.size(peak.as_ref()?, bound)));
+            sizes.fold(0.0, f64::max)
+        };
+        let mut farthest = records.to_vec();
+        farthest.sort_by(|a, b| reached_m(b).total_cmp(&reached_m(a)));
+        let told = |records: &[&OnRecord], of_reach: bool| {
+            let own = |on: &OnRecord| -> Vec<Notice> {
+                let wanted = |notice: &&Notice| is_of_reach(notice.kind) == of_reach;
+                on.notices.iter().filter(wanted).cloned().collect()
+            };
+            let all: Vec<(&str, Vec<Notice>)> =
+                records.iter().map(|on| (&on.record[..], own(on))).collect();
+            condensed(all.iter().map(|(name, notices)| (*name, &notices[..])))
+        };
+        told(&farthest, true).into_iter().chain(told(records, false)).collect()
     }
 
     fn json(&self) -> impl Serialize {
@@ -646,6 +697,12 @@ impl HistoriesReport<'_> {
                 self.floor_json().map(|floor_spectrum| view! { floor_spectrum }),
         }
     }
+}
+
+/// Whether a notice is of how far the block slides.
+fn is_of_reach(kind: NoticeKind) -> bool {
+    use NoticeKind::{FlatGeometry, GapExceeded, StopStruck, TravelReached};
+    matches!(kind, FlatGeometry | GapExceeded | StopStruck | TravelReached)
 }
 
 /// The same with a capital first.

@@ -24,6 +24,14 @@ pub fn title(key: &str) -> String {
     letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
 
+/// `kinetic friction` of `slider.kinetic_friction`, `storey 1 frequency` of `storey.1.frequency`: a key of a model as
+/// people read it.
+#[must_use]
+pub fn path_words(path: &str) -> String {
+    let own = ["slider.", "motion."].iter().find_map(|of| path.strip_prefix(of));
+    own.unwrap_or(path).replace(['.', '_'], " ")
+}
+
 /// The unit of an intensity measure given its SI unit: accelerations in g, as levels are written.
 #[must_use]
 pub fn of_measure(si_unit: &str, display: DisplayUnits, largest: f64) -> Unit {
@@ -44,6 +52,14 @@ pub(super) fn group_value(value: f64, text: &str) -> Scalar<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn keys_of_models_have_words() {
+        assert_eq!(path_words("slider.kinetic_friction"), "kinetic friction");
+        assert_eq!(path_words("storey.1.damping_ratio"), "storey 1 damping ratio");
+        assert_eq!(path_words("motion.sine.frequency"), "sine frequency");
+        assert_eq!(path_words("isolator.period"), "isolator period");
+    }
 
     #[test]
     fn keys_have_titles_and_quantities() {

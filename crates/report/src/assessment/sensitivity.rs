@@ -5,7 +5,7 @@ use slipstick::assessment::derivative::{Derivative, DerivativeRun, Key};
 use slipstick::notice::{Notice, NoticeKind};
 use slipstick::response::DemandColumn;
 
-use super::key::{quantity, title};
+use super::key::{path_words, quantity, title};
 use super::lines::{line, panel};
 use super::sheet::{Sheet, cell, failed};
 use crate::display::DisplayUnits;
@@ -21,6 +21,15 @@ const FIRST: [&str; 3] =
 
 /// Most demands that are all told where none is asked for.
 const MOST_TOLD: usize = 4;
+
+/// The residual.
+const RESIDUAL: &str = FIRST[1];
+
+/// The peak that it is measured by.
+const PEAK: &str = FIRST[0];
+
+/// Share of the peak below which a residual is next to nothing.
+const LEAST_RESIDUAL: f64 = 0.05;
 
 /// Bars of a key that makes a demand larger, and smaller.
 const BARS: [&str; 2] = ["#8fa8c4", "#d9a98a"];
@@ -105,6 +114,16 @@ impl SensitivityReport<'_> {
         self.run.keys.iter().enumerate().map(of_key).collect()
     }
 
+    /// Relative change of a demand over that of a key; NaN of a residual that is next to nothing beside the peak of its
+    /// run, of which a percentage would say nothing.
+    fn relative(&self, of: &Derivative, key: &Key) -> f64 {
+        let place = |name: &str| self.run.demands.iter().position(|d| d.name() == name);
+        let peak = place(PEAK).filter(|_| place(RESIDUAL) == Some(of.demand));
+        let same = |d: &&Derivative| d.record == of.record && Some(d.demand) == peak;
+        let peak = self.run.derivatives.iter().find(same).map_or(0.0, |d| d.value.abs());
+        if of.value.abs() < LEAST_RESIDUAL * peak { f64::NAN } else { of.relative(key) }
+    }
+
     /// Demands that are told in tables and figures: those that are asked for, else the first.
     fn shown(&self) -> Vec<usize> {
         let demands = &self.run.demands;
@@ -122,7 +141,7 @@ impl SensitivityReport<'_> {
     /// there is none.
     fn ranked(&self, demand: usize) -> Vec<(&Key, f64, bool)> {
         let of = self.of(demand).into_iter().filter_map(|(key, all)| {
-            let relative = all.iter().map(|d| d.relative(key)).collect::<Vec<_>>();
+            let relative = all.iter().map(|d| self.relative(d, key)).collect::<Vec<_>>();
             let change = median(&relative)?;
             Some((key, change, all.iter().any(|d| d.events_change)))
         });
@@ -143,7 +162,7 @@ impl SensitivityReport<'_> {
         Some(format!(
             "{what}: {} % {more} for 1 % more {}, the strongest of {}.",
             significant(change.abs(), 3),
-            key.path,
+            path_words(&key.path),
             self.run.keys.len()
         ))
     }
@@ -175,7 +194,7 @@ impl SensitivityReport<'_> {
                 cell(unit.of(values(&|d| d.derivative))),
                 cell(unit.of(values(&|d| d.error))),
                 per(key),
-                cell(values(&|d| d.relative(key))),
+                cell(values(&|d| self.relative(d, key))),
                 change.to_owned(),
             ]);
         }
@@ -190,6 +209,16 @@ impl SensitivityReport<'_> {
                 "{} of {} demands are shown; all are in sensitivity.csv.",
                 self.shown().len(),
                 self.run.demands.len()
+            ));
+        }
+        let tiny = |d: &&Derivative| {
+            let key = &self.run.keys[d.key];
+            d.relative(key).is_finite() && self.relative(d, key).is_nan()
+        };
+        if self.run.derivatives.iter().any(|d| tiny(&d)) {
+            notes.push(format!(
+                "No percentage is given of residuals below {} % of the peak sliding displacement.",
+                compact(100.0 * LEAST_RESIDUAL)
             ));
         }
         let changed = self.run.derivatives.iter().filter(|d| d.events_change).count();
@@ -219,7 +248,7 @@ impl SensitivityReport<'_> {
             return None;
         }
         let what = title(&self.run.demands[demand].name());
-        let names = ranked.iter().map(|(key, ..)| key.path.clone()).collect();
+        let names = ranked.iter().map(|(key, ..)| path_words(&key.path)).collect();
         let bar = |(i, (_, change, _)): (usize, &(&Key, f64, bool))| {
             let (low, high) = (i as f64 + 0.68, i as f64 + 1.32);
             let fill = BARS[usize::from(*change < 0.0)];
@@ -238,7 +267,7 @@ impl SensitivityReport<'_> {
         let zero = line("", axis, vec![[0.0, 0.5], [0.0, count + 0.5]]);
         let series = ranked.iter().enumerate().map(bar).chain([zero]).collect();
         let panel = panel(x, Axis::named("", names), 24.0 * count + 16.0, series);
-        let most = ranked.last().map_or(String::new(), |(key, ..)| key.path.clone());
+        let most = ranked.last().map_or(String::new(), |(key, ..)| path_words(&key.path));
         let caption = format!(
             "{what}: what 1 % more of each key changes, in %; the strongest, {most}, on top."
         );

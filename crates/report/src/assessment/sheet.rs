@@ -171,6 +171,7 @@ impl Sheet {
                 }
             }
         }
+        kinds.sort_by_key(|(notice, _)| core::cmp::Reverse(notice.severity()));
         out.raw("<h3>What was noticed of the records</h3>\n<ul>\n");
         for (notice, names) in kinds {
             let label = notice.severity().name();
@@ -250,6 +251,25 @@ impl Sheet {
         let warnings: Vec<_> = of_runs.zip(&self.warnings).collect();
         warning_list(&mut body, &warnings, self.display);
         self.answers(&mut body);
+        let closing = self.closing(provenance);
+        let short = closing.as_str().len() <= SHORT_CLOSING;
+        body.raw(if short { "<div class=\"closing\">\n" } else { "" })
+            .append(&closing)
+            .raw(if short { "</div>\n" } else { "" });
+        let hash = self.model_hash.iter().map(|hash| format!(", model {hash}"));
+        document(&Frame {
+            kind: self.kind,
+            name: &self.name,
+            title: &self.title_block(provenance),
+            line: &format!("Slipstick {VERSION}{}. {}", hash.collect::<String>(), self.line),
+            command_line: provenance.command_line,
+            body: &body,
+        })
+    }
+
+    /// What follows the answers: how they were found, what is not modelled, and the appendix.
+    fn closing(&self, provenance: &Provenance) -> Markup {
+        let mut body = Markup::new();
         let certified =
             self.certified.iter().map(|certified| format!("Certificates: {certified}."));
         let method: Vec<String> = certified.chain(self.method.iter().cloned()).collect();
@@ -287,15 +307,7 @@ impl Sheet {
         self.noticed(&mut body);
         inputs::provenance(&mut body, provenance);
         body.raw("</section>\n");
-        let hash = self.model_hash.iter().map(|hash| format!(", model {hash}"));
-        document(&Frame {
-            kind: self.kind,
-            name: &self.name,
-            title: &self.title_block(provenance),
-            line: &format!("Slipstick {VERSION}{}. {}", hash.collect::<String>(), self.line),
-            command_line: provenance.command_line,
-            body: &body,
-        })
+        body
     }
 }
 
@@ -354,6 +366,9 @@ fn is_narrow(rows: &[Vec<String>]) -> bool {
     };
     rows.len() <= 40 && rows.iter().all(short)
 }
+
+/// Bytes of what follows the answers up to which it stands on one page, so that none has the command alone.
+const SHORT_CLOSING: usize = 5000;
 
 /// Characters of names and of numbers in tables that stand beside each other.
 const MOST_NAME: usize = 40;

@@ -5,7 +5,7 @@ use slipstick::assessment::spectrum::{CurveOf, DemandCurves, SpectrumRun};
 use slipstick::notice::Notice;
 use slipstick::study::travel_used_up;
 
-use super::key::{quantity, title};
+use super::key::{path_words, quantity, title};
 use super::lines::{BAND, FRACTILES, GROUPS, RECORD, band, line, panel, share_names, stacked};
 use super::sheet::{Sheet, cell, counted_as, failed};
 use crate::display::{DisplayUnits, Unit};
@@ -141,7 +141,7 @@ impl<'s> SpectrumReport<'s> {
     fn axis_label(&self) -> String {
         let unit =
             if self.run.unit.is_empty() { String::new() } else { format!(" ({})", self.run.unit) };
-        format!("{}{unit}", self.run.over)
+        format!("{}{unit}", path_words(&self.run.over))
     }
 
     /// One group: a table a demand with its fractiles, or of a single motion three demands a table.
@@ -282,7 +282,7 @@ impl<'s> SpectrumReport<'s> {
                 )
             }
         };
-        let caption = format!("{what} over {}.{spread}", self.run.over);
+        let caption = format!("{what} over {}.{spread}", path_words(&self.run.over));
         stacked(&self.figure_id(curves), &what, caption, vec![panel])
     }
 

@@ -94,9 +94,12 @@ fn file_table(out: &mut Markup, files: &[FileNote]) {
     let heads = ["File", "What", "SHA-256"].map(|head| (head.to_owned(), false));
     table_head(out, &heads);
     for file in files {
-        out.raw("<tr><td class=\"path\">")
-            .text(file.path)
-            .raw("</td><td>")
+        out.raw("<tr><td>");
+        // A path is broken behind a folder, not within a name.
+        for (i, part) in file.path.split_inclusive('/').enumerate() {
+            out.raw(if i == 0 { "" } else { "<wbr>" }).text(part);
+        }
+        out.raw("</td><td>")
             .text(file.description)
             .raw("</td><td class=\"hash\">")
             .text(file.sha256)
@@ -149,7 +152,7 @@ pub fn assumptions(out: &mut Markup, report: &Report) {
             .to_owned(),
     ];
     if model.slider().gap_m().is_some() && model.stop().is_none() {
-        list.push("Nothing is struck: where the gap is passed, the block slides on.".to_owned());
+        list.push("Nothing is struck: where the gap is exceeded, the block slides on.".to_owned());
     }
     let vertical = report.motion.vertical_m_per_s2().is_some();
     let constant = model.slider().pendulum_radius_m(vertical).is_none();

@@ -1,6 +1,6 @@
 //! From figures to SVG.
 
-use super::{Axis, Figure, Layout, Limit, Panel, PlotSeries, Shape, Style, Tick, WIDTH, thin};
+use super::{Axis, Figure, Layout, Limit, NARROW, Panel, PlotSeries, Shape, Style, Tick, thin};
 use crate::markup::Markup;
 use crate::number::trimmed;
 
@@ -43,16 +43,19 @@ impl Frame {
     }
 }
 
-/// The element and its height.
-pub fn figure(figure: &Figure) -> (Markup, f64) {
+/// The element of a width and its height.
+pub fn figure(figure: &Figure, width: f64) -> (Markup, f64) {
     let mut body = Markup::new();
     let height = match figure.layout {
-        Layout::Stacked => stacked(&mut body, figure),
-        Layout::Beside | Layout::Square => beside(&mut body, figure),
+        Layout::Stacked => stacked(&mut body, figure, width),
+        Layout::Beside | Layout::Square if width > NARROW => {
+            beside(&mut body, figure, width, figure.panels.len())
+        }
+        Layout::Beside | Layout::Square => beside(&mut body, figure, width, 1),
     };
     let mut svg = Markup::new();
     svg.raw("<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\"")
-        .attribute("viewBox", format!("0 0 {WIDTH} {}", trimmed(height, 1)))
+        .attribute("viewBox", format!("0 0 {width} {}", trimmed(height, 1)))
         .attribute("aria-labelledby", format!("{0}-title {0}-desc", figure.id))
         .attribute("font-family", "Helvetica, Arial, Liberation Sans, sans-serif")
         .attribute("font-size", TEXT)
@@ -71,12 +74,12 @@ pub fn figure(figure: &Figure) -> (Markup, f64) {
     (svg, height)
 }
 
-fn stacked(out: &mut Markup, figure: &Figure) -> f64 {
+fn stacked(out: &mut Markup, figure: &Figure, whole: f64) -> f64 {
     // One left edge for all panels, so that their times stand below each other.
     let left = figure.panels.iter().map(left_margin).fold(0.0, f64::max);
     let mut top = 0.0;
     for (i, panel) in figure.panels.iter().enumerate() {
-        let width = WIDTH - left - RIGHT;
+        let width = whole - left - RIGHT;
         let frame =
             Frame { left, top: top + header_height(panel, width), width, height: panel.height };
         let lowest = i + 1 == figure.panels.len();
@@ -86,22 +89,24 @@ fn stacked(out: &mut Markup, figure: &Figure) -> f64 {
     top + x_axis_height()
 }
 
-fn beside(out: &mut Markup, figure: &Figure) -> f64 {
-    let share = WIDTH / figure.panels.len().max(1) as f64;
-    let widths = figure.panels.iter().map(|panel| share - left_margin(panel) - RIGHT);
-    let header = figure
-        .panels
-        .iter()
-        .zip(widths.clone())
-        .map(|(panel, width)| header_height(panel, width))
-        .fold(0.0, f64::max);
+/// Panels in rows of so many, each with an x axis of its own.
+fn beside(out: &mut Markup, figure: &Figure, whole: f64, columns: usize) -> f64 {
+    let columns = columns.max(1);
+    let share = whole / columns as f64;
     let mut bottom: f64 = 0.0;
-    for (i, (panel, width)) in figure.panels.iter().zip(widths).enumerate() {
-        let left = i as f64 * share + left_margin(panel);
-        let height = if figure.layout == Layout::Square { width } else { panel.height };
-        let frame = Frame { left, top: header, width, height };
-        draw_panel(out, panel, frame, &figure.shaded, true);
-        bottom = bottom.max(frame.bottom());
+    for (row, panels) in figure.panels.chunks(columns).enumerate() {
+        let top = if row == 0 { 0.0 } else { bottom + x_axis_height() + BETWEEN_PANELS };
+        let widths = panels.iter().map(|panel| share - left_margin(panel) - RIGHT);
+        let headers = panels.iter().zip(widths.clone());
+        let headers = headers.map(|(panel, width)| header_height(panel, width));
+        let top = top + headers.fold(0.0, f64::max);
+        for (i, (panel, width)) in panels.iter().zip(widths).enumerate() {
+            let left = i as f64 * share + left_margin(panel);
+            let height = if figure.layout == Layout::Square { width } else { panel.height };
+            let frame = Frame { left, top, width, height };
+            draw_panel(out, panel, frame, &figure.shaded, true);
+            bottom = bottom.max(frame.bottom());
+        }
     }
     bottom + x_axis_height()
 }
@@ -298,7 +303,7 @@ fn left_margin(panel: &Panel) -> f64 {
 }
 
 fn grid(out: &mut Markup, panel: &Panel, frame: Frame, x_labels: bool) {
-    let x_ticks = panel.x.ticks((frame.width / 60.0) as usize);
+    let x_ticks = apart(panel.x.ticks((frame.width / 60.0) as usize), &panel.x, frame);
     let y_ticks = y_ticks(panel);
     let mut lines = String::new();
     for tick in &x_ticks {
@@ -332,6 +337,33 @@ fn grid(out: &mut Markup, panel: &Panel, frame: Frame, x_labels: bool) {
         let middle = frame.left + 0.5 * frame.width;
         label(out, &panel.x.label, middle, y + LINE + 1.0, "middle", TEXT);
     }
+}
+
+/// Ticks of the x axis whose labels leave room for each other: powers of ten stay before others.
+fn apart(mut ticks: Vec<Tick>, axis: &Axis, frame: Frame) -> Vec<Tick> {
+    let is_decade = |tick: &Tick| {
+        let digits = tick.label.trim_matches(['0', '.']);
+        axis.logarithmic && digits == "1"
+    };
+    let reach = |tick: &Tick| {
+        let (x, half) = (frame.x(axis, tick.value), 0.5 * text_width(&tick.label, SMALL));
+        [x - half, x + half]
+    };
+    let mut placed: Vec<[f64; 2]> = Vec::new();
+    for decades in [true, false] {
+        for tick in ticks.iter_mut().filter(|tick| is_decade(tick) == decades) {
+            let [left, right] = reach(tick);
+            if tick.label.is_empty() {
+                continue;
+            }
+            if placed.iter().any(|other| left < other[1] + 2.0 && other[0] < right + 2.0) {
+                tick.label.clear();
+            } else {
+                placed.push([left, right]);
+            }
+        }
+    }
+    ticks
 }
 
 /// All intervals as one path; those less than a third of a pixel apart are joined.

@@ -172,9 +172,11 @@ impl StudyReport<'_> {
             let all = count(self.study.runs());
             warn(NoticeKind::Incomplete, format!("{} of {all} runs are in the folder", count(rows)))
         });
-        let warned = said(self.summary).into_iter().map(|message| warn(NoticeKind::Runs, message));
         let noticed = self.notices.iter().map(|notice| warn(NoticeKind::Inputs, notice.clone()));
-        failed.into_iter().chain(missing).chain(warned).chain(noticed).collect()
+        let all = failed.into_iter().chain(missing).chain(said(self.summary)).chain(noticed);
+        let mut all: Vec<Notice> = all.collect();
+        Notice::sort(&mut all);
+        all
     }
 
     fn tables(&self) -> Vec<SheetTable> {

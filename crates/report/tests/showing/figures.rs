@@ -6,6 +6,9 @@ use slipstick::model::{InitialState, Model, Slider, Stop};
 use slipstick::motion::GroundMotion;
 use slipstick_report::DisplayUnits;
 use slipstick_report::figures::{self, Drawn};
+use slipstick_report::plot::{
+    Axis, Figure, Layout, NARROW, Panel, PlotSeries, Shape, Style, WIDTH,
+};
 
 /// One text element: place, size, anchor, content.
 struct Text {
@@ -154,28 +157,93 @@ fn prop_labels_stay_inside_and_every_drawing_is_named() {
     }
 }
 
+/// Both drawings of a figure, that of a page and that of a phone.
 fn assert_sound(drawn: &Drawn) {
-    let svg = drawn.svg.as_str();
     assert!(!drawn.caption.is_empty());
+    assert_sound_svg(&drawn.id, drawn.svg.as_str(), WIDTH);
+    assert_sound_svg(&drawn.id, drawn.figure.to_narrow_svg().as_str(), NARROW);
+}
+
+fn assert_sound_svg(id: &str, svg: &str, width: f64) {
     for needed in ["<title", "<desc", "role=\"img\"", "aria-labelledby"] {
-        assert!(svg.contains(needed), "{}: {needed}", drawn.id);
+        assert!(svg.contains(needed), "{}: {needed}", id);
     }
     for wrong in ["NaN", "inf", "url(", "href", "<script", "<style"] {
-        assert!(!svg.contains(wrong), "{}: {wrong}", drawn.id);
+        assert!(!svg.contains(wrong), "{}: {wrong}", id);
     }
     let view = attribute(svg, "viewBox").expect("a view box");
     let height: f64 = view.rsplit(' ').next().and_then(|text| text.parse().ok()).expect("height");
+    assert!(view.starts_with(&format!("0 0 {width} ")), "{id}: {view}");
+    assert_apart(id, svg);
     for text in texts(svg) {
         // Letters of Helvetica are half their size wide, digits 0.56.
-        let width = 0.56 * text.size * text.content.chars().count() as f64;
+        let wide = 0.56 * text.size * text.content.chars().count() as f64;
         let left = match text.anchor.as_str() {
             "start" => text.x,
-            "middle" => text.x - 0.5 * width,
-            _ => text.x - width,
+            "middle" => text.x - 0.5 * wide,
+            _ => text.x - wide,
         };
-        assert!(left >= -0.5 && left + width <= 681.0, "{}: {:?} is cut", drawn.id, text.content);
+        assert!(left >= -0.5 && left + wide <= width + 1.0, "{}: {:?} is cut", id, text.content);
         assert!(text.y - 0.75 * text.size >= -0.5 && text.y + 3.0 <= height, "{}", text.content);
     }
+}
+
+/// No two labels below a frame lie on each other.
+fn assert_apart(id: &str, svg: &str) {
+    let below: Vec<Text> = texts(svg).into_iter().filter(|text| text.anchor == "middle").collect();
+    for (i, one) in below.iter().enumerate() {
+        for other in below[..i].iter().filter(|other| (other.y - one.y).abs() < 1.0) {
+            let half = |text: &Text| 0.28 * text.size * text.content.chars().count() as f64;
+            let apart = (one.x - other.x).abs();
+            assert!(
+                apart >= half(one) + half(other),
+                "{id}: {:?} on {:?}",
+                one.content,
+                other.content
+            );
+        }
+    }
+}
+
+/// Of a logarithmic axis too long for all its labels the powers of ten stay.
+#[test]
+fn labels_of_a_logarithmic_axis_leave_room() {
+    let line = |x: f64| [x, x];
+    let series = PlotSeries {
+        label: String::new(),
+        style: Style::MAIN,
+        shape: Shape::Curve,
+        points: (0..40).map(|i| line(0.002 * 1.3_f64.powi(i))).collect(),
+    };
+    let panel = Panel {
+        x: Axis::logarithmic("Period (s)", 0.002, 60.0),
+        y: Axis::linear("Sa (g)", 0.0, 60.0),
+        height: 100.0,
+        series: vec![series],
+        limits: Vec::new(),
+        peak: None,
+        note: String::new(),
+    };
+    let figure = Figure {
+        id: "log".to_owned(),
+        title: "Periods".to_owned(),
+        description: "Periods".to_owned(),
+        layout: Layout::Square,
+        panels: vec![panel.clone(), panel],
+        shaded: Vec::new(),
+    };
+    let drawn = Drawn::new(figure, "Periods.".to_owned());
+    assert_sound(&drawn);
+    for svg in [drawn.svg, drawn.figure.to_narrow_svg()] {
+        for decade in ["0.01", "0.1", "1", "10"] {
+            let labels = texts(svg.as_str());
+            let found = labels.iter().filter(|t| t.anchor == "middle" && t.content == decade);
+            assert_eq!(found.count(), 2, "{decade}");
+        }
+    }
+    // On a phone the panels stand below each other.
+    let frames = drawn.figure.to_narrow_svg();
+    assert!(frames.as_str().matches("<rect fill=\"none\"").count() == 2);
 }
 
 #[test]

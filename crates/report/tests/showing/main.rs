@@ -5,6 +5,7 @@
 mod figures;
 mod page;
 mod reviewer;
+mod sensitivity;
 mod suite;
 mod summary;
 mod support;

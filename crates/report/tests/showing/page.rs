@@ -14,7 +14,7 @@ fn assert_balanced(html: &str) {
     for piece in html.split('<').skip(1) {
         let tag = piece.split('>').next().expect("a tag");
         let name = tag.split([' ', '\n', '/']).next().unwrap_or("");
-        if tag.starts_with('!') || matches!(name, "meta" | "br") || tag.ends_with('/') {
+        if tag.starts_with('!') || matches!(name, "meta" | "br" | "wbr") || tag.ends_with('/') {
             continue;
         }
         match tag.strip_prefix('/') {
@@ -182,4 +182,71 @@ fn a_failed_check_is_said_loudly() {
     // A bound that fails spoils the whole, even beside a nominal run that holds.
     let spoiled = case.summary.clone().with_bounds(summary, case.summary.clone());
     assert!(report(&case, &spoiled).to_html().contains("NOT CONFIRMED"));
+}
+
+/// Colours of drawings, as the sources of the report write them.
+fn colours(folder: &std::path::Path, found: &mut Vec<String>) {
+    for entry in std::fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry"))
+    {
+        let path = entry.path();
+        if path.is_dir() {
+            colours(&path, found);
+        } else if path.extension().is_some_and(|ending| ending == "rs") {
+            let text = std::fs::read_to_string(&path).expect("a source");
+            let quoted = text
+                .split('"')
+                .filter(|word| word.starts_with('#'))
+                .map(|word| word.trim_end_matches('\\'));
+            let colour = |word: &&str| {
+                matches!(word.len(), 4 | 7) && word[1..].chars().all(|c| c.is_ascii_hexdigit())
+            };
+            found.extend(quoted.filter(colour).map(str::to_owned));
+        }
+    }
+}
+
+/// Where the reader's system is dark the page and every colour of its drawings are; paper stays light.
+#[test]
+fn every_colour_of_a_drawing_has_one_for_the_dark() {
+    let mut found = Vec::new();
+    colours(&std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut found);
+    found.sort();
+    found.dedup();
+    // The ground of a file of drawings, which no page has.
+    found.retain(|colour| colour != "#ffffff");
+    assert!(found.len() > 15, "{found:?}");
+    let case = run("mock-up", frame_model(1, 1.0), rough_motion(5.0, 0.02));
+    let html = report(&case, &case.summary).to_html();
+    let (_, dark) =
+        html.split_once("@media screen and (prefers-color-scheme: dark)").expect("rules");
+    for colour in found {
+        for of in ["fill", "stroke"] {
+            assert!(dark.contains(&format!("svg [{of}=\"{colour}\"]")), "{of} {colour}");
+        }
+    }
+}
+
+/// The first figure is there a second time, as narrow as a phone, under identifiers of its own.
+#[test]
+fn the_first_figure_is_drawn_for_a_phone_besides() {
+    let case = run("mock-up", frame_model(1, 1.0), rough_motion(5.0, 0.02));
+    let html = report(&case, &case.summary).to_html();
+    assert_eq!(html.matches("viewBox=\"0 0 360 ").count(), 1);
+    assert_eq!(html.matches("<div class=\"narrow\">").count(), 1);
+    let ids: Vec<&str> =
+        html.split(" id=\"").skip(1).filter_map(|part| part.split('"').next()).collect();
+    for (i, id) in ids.iter().enumerate() {
+        assert!(!ids[..i].contains(id), "{id} twice");
+    }
+    assert!(ids.contains(&"sliding-displacement-narrow-title"), "{ids:?}");
+}
+
+/// A path is broken behind folders alone; what ends a short report stands together.
+#[test]
+fn cells_of_paths_break_behind_folders() {
+    let case = run("mock-up", frame_model(1, 1.0), rough_motion(5.0, 0.02));
+    let mut report = report(&case, &case.summary);
+    report.files = &[FileNote { path: "far-field/a_b.AT2", sha256: "00", description: "PEER AT2" }];
+    let html = report.to_html();
+    assert!(html.contains("<td>far-field/<wbr>a_b.AT2</td>"), "no break");
 }

@@ -25,7 +25,11 @@ fn motion(rate: f64, peak: f64) -> GroundMotion {
 }
 
 fn histories(suite: &Suite) -> Histories {
-    let analysis = input::parse("m.toml", MODEL, &[]).expect("a model");
+    histories_of(MODEL, suite)
+}
+
+fn histories_of(model: &str, suite: &Suite) -> Histories {
+    let analysis = input::parse("m.toml", model, &[]).expect("a model");
     let on = ModelOn { name: "m", analysis: &analysis, suite };
     let pga = LevelMeasure { measure: Measure::Pga, rotated: None };
     run_histories(&[on], &Scaling::Level(pga, 3.0), Kept::default(), &Engine::unwatched())
@@ -127,5 +131,40 @@ fn records_of_one_name_are_two_rows() {
         let json: serde_json::Value = serde_json::from_str(&sheet.to_json()).expect("JSON");
         let scales = [0, 1].map(|i| json["suite"][i]["scale"].as_f64());
         assert_eq!(scales, [Some(factors[0]), Some(factors[1])]);
+    }
+}
+
+/// A headline counts the records beyond the gap and names the farthest, which the warning cites.
+#[test]
+fn a_headline_counts_what_exceeds_the_gap() {
+    let record = |i: u32| Record::new(format!("r{i}"), motion(4.0 + f64::from(i), 3.0));
+    let suite = Suite { records: (0..9).map(record).collect(), ..Suite::default() };
+    let plain = histories(&suite);
+    let peak = plain.shape.find("peak_sliding_displacement_m").expect("a demand").1;
+    let sizes = plain.models[0].sizes(&peak, 0);
+    let farthest = (0..9).max_by(|a, b| sizes[*a].total_cmp(&sizes[*b])).expect("a record");
+    let mut sorted = sizes.clone();
+    sorted.sort_by(f64::total_cmp);
+    // Four records are beyond, then one, then none.
+    for (gap_m, said) in [
+        (0.5 * (sorted[4] + sorted[5]), ", and 4 of 9 records exceed the gap, "),
+        (0.5 * (sorted[7] + sorted[8]), ", and 1 of 9 records exceeds the gap, "),
+        (1.5 * sorted[8], ", and none of 9 records exceeds the gap, "),
+    ] {
+        let model = MODEL.replace("radius", &format!("gap = \"{gap_m} m\"\nradius"));
+        let found = histories_of(&model, &suite);
+        let sheet = sheet(found, &suite);
+        let (_, first) = sheet.first.as_ref().expect("a headline");
+        let most = 1e3 * sizes[farthest];
+        let at = first.find(said).unwrap_or_else(|| panic!("{said}: {first}"));
+        assert!(first[at..].contains(&format!(" r{farthest} ")), "{first}");
+        let told: f64 = first.rsplit(' ').nth(1).and_then(|n| n.parse().ok()).expect("a number");
+        assert!((told / most - 1.0).abs() < 1e-3, "{told} for {most}: {first}");
+        let cited = sheet.warnings.iter().find(|w| w.kind == NoticeKind::GapExceeded);
+        assert_eq!(cited.is_some(), gap_m < sorted[8]);
+        let cites = |notice: &slipstick::notice::Notice| {
+            notice.message.starts_with(&format!("r{farthest}: "))
+        };
+        assert!(cited.is_none_or(cites), "{cited:?}");
     }
 }

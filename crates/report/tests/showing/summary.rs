@@ -165,8 +165,12 @@ fn warnings_of_the_bounds_are_told_apart() {
     let mut lower = nominal.summary.clone();
     let own = Notice::new(NoticeKind::ContactLost, "lifted").at(1.0);
     lower.warnings.push(own);
-    let summary = nominal.summary.clone().with_bounds(lower, nominal.summary.clone());
+    let mut own = nominal.summary.clone();
+    own.warnings.push(Notice::new(NoticeKind::CloseCall, "close").at(2.0));
+    let summary = own.with_bounds(lower, nominal.summary.clone());
     let all: Vec<_> =
         summary.all_warnings().into_iter().map(|(run, w)| (run, w.kind.name())).collect();
-    assert_eq!(all, [(None, "gap_exceeded"), (Some("lower"), "contact_lost")]);
+    // The gravest first, whichever run it is of.
+    let severe = [(None, "gap_exceeded"), (Some("lower"), "contact_lost")];
+    assert_eq!(all, [&severe[..], &[(None, "close_call")]].concat());
 }

@@ -3,7 +3,7 @@
 import { Address } from "./address";
 import { Compare } from "./compare";
 import { Controls } from "./controls";
-import { Desk, type Engine, type Wish } from "./desk";
+import { type Answered, Desk, type Engine } from "./desk";
 import { h } from "./dom";
 import { Editor } from "./editor";
 import { MODELS, START } from "./examples";
@@ -24,7 +24,7 @@ import type { StudyTab } from "./study";
 import { identity } from "./tab";
 import { TabBar } from "./tabbar";
 import uplotStyle from "uplot/dist/uPlot.min.css";
-import type { Answer, Display, Fault, Judgement, Run, Setting } from "./types";
+import type { Answer, Display, Fault, Judgement, Revision, Run, Setting } from "./types";
 
 void uplotStyle;
 
@@ -52,18 +52,15 @@ export class App {
   readonly root = h("div", { class: "slipstick" });
   readonly desk: Desk;
 
-  // What is wanted.
-  private text = START;
-  private display: Display = "si";
-  private pending: Setting[] = [];
-
-  // What is known.
-  private good: Wish = { text: "", set: [], display: "si" };
-  private answer: Answer | undefined;
-  private judgement: Judgement | undefined;
+  // What is drawn.
   private shown: Shown | undefined;
   /** What is known and not drawn yet. */
   private news: "" | "answer" | "judgement" = "";
+  /** The picture of the build, which is that of the first revision; and numbers of the revisions whose figures, whose check, and whose text are drawn. */
+  private built: Answer | undefined;
+  private builtOf = 0;
+  private readonly drawnOf = { figures: 0, check: 0, text: 0 };
+  private wasRefused = false;
   /** For the measurements: pictures drawn of new answers. */
   updates = 0;
   /** Whether an answer of a module is drawn next, the first one. */
@@ -95,6 +92,8 @@ export class App {
   private readonly headline = h("dl", { class: "headline" });
   private readonly severe = h("div", { class: "severe", tabindex: 0, role: "region", "aria-label": "Severe warnings", hidden: true });
   private readonly certificate = h("section", { class: "certificate", "aria-label": "Certificate" });
+  private readonly loopCard = h("div", { class: "card pad" }, h("h2", {}, "Force on the slider"));
+  private readonly peaksCard = h("div", { class: "card pad peaks" }, h("h2", {}, "Peaks"));
   private readonly beside = h("div", {});
   private readonly events = h("div", { class: "table-scroll", tabindex: 0, role: "region", "aria-label": "Events" });
   private readonly system = h("select", { "aria-label": "Units" }, ...SYSTEMS.map(([value, label]) => h("option", { value }, label)));
@@ -112,40 +111,45 @@ export class App {
     this.desk = new Desk(engine);
     const { desk } = this;
     const text = () => this.text;
+    const set = (settings: Setting[]) => desk.set(settings);
+    const display = () => desk.wanted.display;
     const setText = (text: string) => this.setText(text);
     const state = () => this.answer?.state;
     const fault = (fault: Fault) => this.fault(fault);
     const say = (text: string) => this.notices.say(text);
 
     this.records = new Records({ desk, state, text, setText });
-    this.controls = new Controls((settings) => this.set(settings), this.records.motion);
-    this.editor = new Editor((text) => {
-      this.pending = [];
-      this.text = text;
-      this.wish();
-    });
+    this.controls = new Controls(set, this.records.motion);
+    this.editor = new Editor((text) => desk.want({ text, set: [] }));
     this.theme();
     this.compare = new Compare({
       desk,
       text,
       state: () => (this.judgement ? state() : undefined),
-      display: () => this.display,
+      display,
       setText,
       changed: () => {
         if (this.answer) this.drawAnswer();
+        // Beside B there is more to read.
+        this.controls.bring();
         void this.remember();
       },
       say,
     });
     this.guides = new Guides({
       desk,
-      display: () => this.display,
+      display,
       open: (text, pinned) => {
         this.select("motion", false);
         this.open(text);
         this.compare.keep(pinned);
       },
-      set: (settings) => this.set(settings),
+      set,
+      begin: (path) => {
+        if (path) this.stage.begin();
+        this.controls.twice(path, this.answer?.state);
+        return this.controls.second;
+      },
       changed: () => void this.remember(),
       copy: (text, said) => void this.exports.copy(text, said),
     });
@@ -153,10 +157,8 @@ export class App {
     this.histories = new Histories(this.clock, palette(this.root));
     this.exports = new Exports({
       desk,
-      text,
-      display: () => this.display,
-      state: () => (this.judgement ? state() : undefined),
-      records: () => this.records.bytes(),
+      motion: (state, files) => this.records.bytes(state, files),
+      moved: (state) => this.records.moved(state),
       stage: this.stage,
       tables: [this.certificate, this.peaks.table],
       say,
@@ -166,12 +168,12 @@ export class App {
     const made = tabs({
       desk,
       state,
-      display: () => this.display,
+      display,
       dark: () => this.root.dataset.theme === "dark",
       records: () => this.records.all(),
       choice: (name) => this.records.choice(name),
       text,
-      set: (settings) => this.set(settings),
+      set,
       load: (run) => this.load(run),
       identity: (name) => identity(desk.records.get(name) ?? new Uint8Array()),
       progress: (tab, text) => this.bar.progress(tab, text),
@@ -188,7 +190,6 @@ export class App {
       text,
       setText: (text) => this.openModel(text),
       take: (record) => this.records.take(record),
-      wish: () => this.wish(),
       study: (plan) => {
         this.study.load(plan);
         this.select("study", true);
@@ -196,6 +197,7 @@ export class App {
       },
       many: () => this.select("suite", true),
       listRecords: () => this.records.show(),
+      leave: (name) => made.leave([name]),
       fault,
     });
     this.layout();
@@ -207,22 +209,31 @@ export class App {
   }
 
   private async begin(): Promise<void> {
-    if (this.options.model !== undefined) this.text = this.options.model;
-    else if (this.options.address && location.hash.length > 1) await this.fromAddress();
-    this.editor.text = this.text;
-    this.steps.opened(this.text);
-    this.stage.play(!matchMedia("(prefers-reduced-motion: reduce)").matches);
+    const { options, desk } = this;
     results.loading(this.certificate, "nothing");
+    this.stage.play(!matchMedia("(prefers-reduced-motion: reduce)").matches);
+    const opened = options.address && options.model === undefined && location.hash.length > 1 ? await this.fromAddress() : undefined;
+    // A guided scene has opened its model.
+    if (desk.wanted.number > 0) return;
+    const wanted = { ...desk.wanted, text: options.model ?? START, ...opened };
+    desk.wanted = wanted;
+    this.editor.text = wanted.text;
+    this.steps.opened(wanted.text);
     // The module is asked for after the first picture, which it would keep waiting on a slow network.
-    if (this.text === START && this.display === "si") await this.showFirst();
-    this.wish();
+    if (wanted.text === START && wanted.display === "si") await this.showFirst();
+    // A value may have been changed by then, which is asked for already.
+    if (desk.wanted.number > 0) return;
+    this.builtOf = 1;
+    this.drawnOf.figures = this.built ? 1 : 0;
+    desk.want({});
   }
 
   /** Shows the example as it was computed when the page was built. */
   private async showFirst(): Promise<void> {
     try {
       const answer = await this.options.first?.();
-      if (!answer) return;
+      if (!answer || this.desk.answered) return;
+      this.built = answer;
       this.show(answer);
       results.loading(this.certificate, "built");
       // It is drawn first; a page that is not looked at draws nothing.
@@ -295,7 +306,7 @@ export class App {
         this.redo,
         button("Reset", () => this.setText(this.steps.start)),
         this.system,
-        this.options.address && button("Copy link", () => void this.exports.copy(location.href, "The link is in the clipboard.")),
+        this.options.address && button("Copy link", () => void this.link()),
         this.exports.menu,
       ),
     );
@@ -313,12 +324,14 @@ export class App {
   }
 
   private resultsPart(): HTMLElement {
+    this.loopCard.append(this.stage.loopBox);
+    this.peaksCard.append(this.peaks.table, this.peaks.warnings);
     return h(
       "section",
       { class: "results", "aria-label": "Results" },
       this.certificate,
-      h("div", { class: "card pad" }, h("h2", {}, "Force on the slider"), this.stage.loopBox),
-      h("div", { class: "card pad peaks" }, h("h2", {}, "Peaks"), this.peaks.table, this.peaks.warnings),
+      this.loopCard,
+      this.peaksCard,
       h("div", { class: "card pad" }, h("h2", {}, "For comparison"), h("label", { class: "switch" }, this.stepwise, "The paper's stepwise method"), this.beside),
       h("details", { class: "card pad fold" }, h("summary", {}, "Events"), this.events),
     );
@@ -334,10 +347,14 @@ export class App {
 
   private hear(): void {
     const { desk, notices } = this;
-    desk.onanswer = (answer, wish) => this.take(answer, wish);
-    desk.onjudged = (judgement, wish) => this.judged(judgement, wish);
-    desk.onfault = (fault, wish) => this.fault(fault, wish);
+    desk.onwanted = () => this.want();
+    desk.onanswer = (answered) => this.take(answered);
+    desk.onjudged = (answered) => this.judged(answered);
+    desk.onfault = (fault, of) => this.fault(fault, of);
     desk.onrest = () => {
+      this.steps.rest(this.text);
+      this.mark();
+      this.controls.bring();
       void this.compare.update();
       void this.remember();
       if (this.answer) notices.say(results.sentence(this.answer.state, this.judgement?.certificate.holds));
@@ -348,17 +365,11 @@ export class App {
         desk.helper.end();
         void desk.helper.start();
       });
-    this.system.addEventListener("change", () => {
-      this.display = this.system.value as Display;
-      this.wish();
-    });
-    this.stepwise.addEventListener("change", () => {
-      desk.stepwise = this.stepwise.checked;
-      void desk.judge();
-    });
+    this.system.addEventListener("change", () => desk.want({ display: this.system.value as Display }));
+    this.stepwise.addEventListener("change", () => desk.want({ stepwise: this.stepwise.checked }));
     if (this.options.address) {
       addEventListener("popstate", () => {
-        void this.fromAddress().then(() => this.setText(this.text));
+        void this.fromAddress().then((opened) => opened && this.setText(opened.text, opened));
       });
     }
     new ResizeObserver(() => {
@@ -373,8 +384,14 @@ export class App {
   }
 
   private keys(): void {
-    this.root.addEventListener("keydown", (event) => {
+    // Where the page is the whole document, keys are heard wherever the focus is.
+    const ears: HTMLElement = this.options.address ? document.documentElement : this.root;
+    // A button that was pressed by a pointer keeps the focus, and is not meant by the next key.
+    let pointed = false;
+    ears.addEventListener("pointerdown", () => (pointed = true));
+    ears.addEventListener("keydown", (event) => {
       const { tagName, type } = event.composedPath()[0] as HTMLInputElement;
+      if (event.key !== " ") pointed = false;
       // A field of text has its own undo.
       const writes = tagName === "TEXTAREA" || (tagName === "INPUT" && type === "text");
       const key = (event.ctrlKey || event.metaKey) && !writes ? event.key.toLowerCase() : "";
@@ -382,7 +399,9 @@ export class App {
         event.preventDefault();
         this.step(key === "z" && !event.shiftKey ? -1 : 1);
       }
-      if (event.key === " " && !/^(INPUT|TEXTAREA|SELECT|BUTTON|SUMMARY|A)$/.test(tagName)) {
+      const field = /^(TEXTAREA|SELECT)$/.test(tagName) || (tagName === "INPUT" && type !== "range");
+      const button = /^(BUTTON|SUMMARY|A)$/.test(tagName) && !pointed;
+      if (event.key === " " && !field && !button) {
         event.preventDefault();
         this.stage.play(!this.stage.playing);
       }
@@ -421,23 +440,28 @@ export class App {
 
   // ---- what is wanted
 
-  private wish(): void {
-    this.desk.want({ text: this.text, set: [...this.pending], display: this.display });
+  /** The text that is wanted; of keys that were set on it since it says nothing yet. */
+  get text(): string {
+    return this.desk.wanted.text;
   }
 
-  /** Sets values of the model; the newest value of a key counts. */
-  private set(settings: Setting[]): void {
-    const keys = new Set(settings.map(([path]) => path));
-    this.pending = [...this.pending.filter(([path]) => !keys.has(path)), ...settings];
-    this.wish();
+  /** Takes a whole text, and with it how it is shown. */
+  private setText(text: string, how: Partial<Revision> = {}): void {
+    this.controls.release();
+    this.desk.want({ ...how, text, set: [] });
   }
 
-  /** Takes a whole text. */
-  private setText(text: string): void {
-    this.pending = [];
-    this.text = text;
-    this.editor.text = text;
-    this.wish();
+  /** Another revision is wanted: what is of another one is greyed. */
+  private want(): void {
+    const { wanted } = this.desk;
+    if (wanted.set.length === 0) {
+      this.editor.text = wanted.text;
+      this.drawnOf.text = wanted.number;
+    }
+    this.system.value = wanted.display;
+    this.stepwise.checked = wanted.stepwise;
+    this.bar.open.update?.();
+    this.mark();
   }
 
   /** Shows a run of an analysis over many by itself. */
@@ -451,8 +475,8 @@ export class App {
       return [[path, String((own === undefined ? value : Number(own)) * factor)]];
     });
     const all = factor === 1 ? set : [...set.filter(([path]) => bounded.every(([other]) => other !== path)), ...bounded];
-    this.setText(record === null ? this.text : onRecord(this.text, this.records.choice(record), scale));
-    if (all.length > 0) this.set(all);
+    this.controls.release();
+    this.desk.want({ text: record === null ? this.text : onRecord(this.text, this.records.choice(record), scale), set: all });
     this.select("motion", true);
     const cannot = factor === 1 && friction !== "nominal";
     this.notices.tell(cannot ? `The run has ${friction} friction; shown is the model's own, with ${friction} friction beside it.` : `Shown: ${[record ?? "the model's motion", friction === "nominal" ? "" : `${friction} friction`].filter(Boolean).join(", ")}. Undo returns to what stood here.`);
@@ -472,26 +496,69 @@ export class App {
 
   /** A state further on, or back. */
   private step(steps: number): void {
-    const text = this.steps.go(steps);
+    const { text: now, set } = this.desk.wanted;
+    const text = this.steps.go(steps, this.steps.changed(now, set.length));
     if (text !== undefined) this.setText(text);
   }
 
   // ---- what is known
 
-  private take(answer: Answer, wish: Wish): void {
-    this.good = wish;
+  /** What is shown: the last answer, or the picture of the build. */
+  get answer(): Answer | undefined {
+    return this.desk.answered?.answer ?? this.built;
+  }
+
+  get judgement(): Judgement | undefined {
+    return this.desk.answered?.judgement;
+  }
+
+  private take({ answer }: Answered): void {
     this.notices.right();
     this.editor.right();
-    this.judgement = undefined;
-    if (this.desk.helper.early) results.loading(this.certificate, "answer");
-    else results.certificate(this.certificate, undefined);
+    this.intake.miss(undefined);
+    this.certify();
     this.answered ??= true;
     this.show(answer);
   }
 
+  /** Says what is known of the check. */
+  private certify(): void {
+    const { desk } = this;
+    const { answered, refused } = desk;
+    this.wasRefused = refused;
+    if (!answered) return;
+    if (desk.helper.early && !answered.judgement) results.loading(this.certificate, "answer");
+    else results.certificate(this.certificate, answered, refused, () => desk.check());
+  }
+
+  /** Greys what is of another revision than what is wanted, and says its number. */
+  private mark(): void {
+    const { desk, drawnOf } = this;
+    const { wanted, answered, refused } = desk;
+    if (refused !== this.wasRefused) this.certify();
+    // Fields show what was set on the model that they are of.
+    const own = answered === undefined || wanted.text === answered.asked || wanted.text === answered.of.text;
+    const parts: [number, HTMLElement[]][] = [
+      [drawnOf.figures, [this.stage.element, this.histories.element, this.loopCard, this.peaksCard]],
+      [drawnOf.check, [this.beside, this.events]],
+      [answered?.judgement || refused ? drawnOf.check : wanted.number, [this.certificate]],
+      [drawnOf.text, [this.editor.element]],
+      [own && !refused ? wanted.number : drawnOf.figures, [this.controls.element]],
+    ];
+    for (const [number, elements] of parts) {
+      for (const element of elements) {
+        if (element.dataset.number !== String(number)) element.dataset.number = String(number);
+        element.classList.toggle("behind", number !== wanted.number && number > 0);
+      }
+    }
+    this.root.dataset.number = String(wanted.number);
+    const changed = this.steps.changed(wanted.text, wanted.set.length);
+    this.undo.disabled = !this.steps.canUndo && !changed;
+    this.redo.disabled = !this.steps.canRedo || changed;
+  }
+
   private show(answer: Answer): void {
     const before = this.shown;
-    this.answer = answer;
     const tableTimes = answer.tableTimes ?? before?.tableTimes ?? new Float64Array();
     const tableDisplacement = answer.tableDisplacement ?? before?.tableDisplacement ?? new Float64Array();
     let tablePeak = answer.tableDisplacement ? 0 : (before?.tablePeak ?? 0);
@@ -501,49 +568,30 @@ export class App {
     this.news = "answer";
   }
 
-  private judged(judgement: Judgement, wish: Wish): void {
-    this.judgement = judgement;
-    // What was set stands in the text now; the page waits for it before it says that it rests.
-    this.pending = [];
-    if (wish.text === this.text) {
-      this.text = judgement.text;
-      this.editor.text = judgement.text;
-    }
-    results.certificate(this.certificate, judgement);
-    this.steps.rest(this.text);
-    this.undo.disabled = !this.steps.canUndo;
-    this.redo.disabled = !this.steps.canRedo;
+  private judged({ judgement }: Answered): void {
+    this.certify();
     this.bar.update();
-    this.news ||= "judgement";
+    this.mark();
+    if (judgement) this.news ||= "judgement";
   }
 
-  private fault(fault: Fault, wish?: Wish): void {
+  private fault(fault: Fault, of?: Revision): void {
     const { message, source, start, end } = fault;
+    const { desk } = this;
     const inText = source === "model.toml" && start !== undefined;
     const show = () => {
       this.select("motion", false);
       this.editor.select(start!, Math.max(end ?? 0, start!));
     };
-    this.notices.wrong(message, inText ? show : undefined);
-    if (inText) this.editor.wrong(message);
-    if (wish && this.judgement) results.certificate(this.certificate, this.judgement, true);
-    // A value that cannot be is not asked for again.
-    if (wish && wish.set.length > 0) {
-      this.pending = wish.text === this.good.text ? [...this.good.set] : [];
-      if (this.answer) this.controls.update(this.answer.state);
-      this.controls.refuse(wish.set.slice(-1), message);
-    }
-    if (this.answer && !this.judgement) void this.rejudge();
-  }
-
-  /** The state that stays is judged too. */
-  private async rejudge(): Promise<void> {
-    try {
-      const judgement = await this.desk.helper.call("judge", this.stepwise.checked);
-      if (!this.judgement) this.judged(judgement, this.good);
-    } catch {
-      // The next answer is judged by itself.
-    }
+    this.intake.miss(fault.missing);
+    if (fault.missing !== undefined) this.notices.needs(...this.intake.asking(fault.missing));
+    else this.notices.wrong(message, inText ? show : undefined);
+    if (inText && desk.refused && fault.missing === undefined) this.editor.wrong(message);
+    if (!of) return;
+    if (this.answer) this.controls.update(this.answer.state);
+    this.controls.refuse(of.set.slice(-1), message);
+    this.records.update();
+    this.mark();
   }
 
   // ---- pictures
@@ -582,6 +630,8 @@ export class App {
     results.headline(this.headline, state, pinned?.state);
     results.severe(this.severe, (judgement ?? state).warnings);
     this.peaks.show(judgement ?? state);
+    this.drawnOf.figures = this.desk.answered?.of.number ?? this.builtOf;
+    this.mark();
     if (this.bar.tab !== "motion") return;
     this.histories.show(answer, judgement, pinned);
     this.stage.draw(pinned);
@@ -593,45 +643,56 @@ export class App {
     if (this.bar.tab === "motion") this.histories.judged(judgement);
     results.beside(this.beside, judgement);
     results.events(this.events, this.answer!, (time) => this.stage.stopAt(time));
+    this.drawnOf.check = this.desk.answered?.of.number ?? 0;
+    this.mark();
   }
 
   // ---- address
 
-  private async remember(): Promise<void> {
-    const state = this.answer?.state;
-    if (!state) return;
-    const { text, display, options } = this;
-    options.onstate?.({ model: text, summary: JSON.stringify(state.headline) });
-    if (!options.address) return;
-    await this.address.remember({ text, display, tab: this.bar.tab, settings: this.bar.open.settings?.() ?? {}, stepwise: this.stepwise.checked, records: this.records.needed(this.compare.pinned?.answer.state), pinned: this.compare.kept, scene: this.guides.id });
+  /** Copies the link of what is wanted, once it rests. */
+  private async link(): Promise<void> {
+    await this.desk.rested();
+    await this.remember();
+    await this.exports.copy(location.href, "The link is in the clipboard.");
   }
 
-  private async fromAddress(): Promise<void> {
+  /** The address says what is at rest, whatever else is on its way. */
+  private async remember(): Promise<void> {
+    const { options, desk } = this;
+    const { answered } = desk;
+    if (!answered || !desk.rests || answered.of.set.length > 0) return;
+    const { state } = answered.answer;
+    const { text, display, stepwise } = answered.of;
+    options.onstate?.({ model: text, summary: JSON.stringify(state.headline) });
+    if (!options.address) return;
+    await this.address.remember({ text, display, tab: this.bar.tab, settings: this.bar.open.settings?.() ?? {}, stepwise, records: this.records.needed(state, this.compare.pinned?.answer.state), pinned: this.compare.kept, scene: this.guides.id });
+  }
+
+  /** What the address wants; nothing where it opens a guided scene by itself, or says nothing that this page made. */
+  private async fromAddress(): Promise<Partial<Revision> & { text: string } | undefined> {
     try {
       const scene = this.address.scene();
       if (scene !== undefined) {
-        if (this.guides.open(scene)) return;
+        if (this.guides.open(scene)) return undefined;
         throw new Error(`the address: expected a guided scene, found "${scene}"`);
       }
       const shared = await this.address.read();
+      if (shared === undefined) return undefined;
       if (!shared) {
-        this.text = START;
         this.compare.keep(undefined);
         this.guides.show(undefined);
-        return;
+        return { text: START };
       }
-      this.text = shared.text;
-      this.display = shared.display;
-      this.system.value = shared.display;
-      this.stepwise.checked = shared.stepwise;
-      this.desk.stepwise = shared.stepwise;
+      const { text, display, stepwise } = shared;
       this.intake.wanted = shared.records.filter(({ name }) => !this.desk.records.has(name));
       this.compare.keep(shared.pinned);
       this.guides.show(shared.scene);
       this.select(shared.tab, false);
       this.bar.open.restore?.(shared.settings);
+      return { text, display, stepwise };
     } catch (error) {
       this.notices.keep(error instanceof Error ? error.message : String(error));
+      return undefined;
     }
   }
 

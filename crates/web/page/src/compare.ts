@@ -3,7 +3,7 @@
 import { labelOf } from "./controls";
 import { type Desk, Ended, Helper, ModuleError } from "./desk";
 import { fill, h } from "./dom";
-import { type Page, subject } from "./tab";
+import { filesOf } from "./tab";
 import type { Answer, Display, Judgement, State } from "./types";
 
 /** What comparing needs of the page. */
@@ -74,8 +74,7 @@ export class Compare {
   /** Computes B again where its units or the records are others now. */
   async update(): Promise<void> {
     const { page, text } = this;
-    // Of a page it needs no more than these two.
-    const of = text === undefined ? "" : subject({ desk: page.desk, text: () => text } as Page, page.display());
+    const of = text === undefined ? "" : JSON.stringify([text, filesOf(page.desk), page.display()]);
     if (of === this.of) {
       this.draw();
       return;
@@ -88,8 +87,9 @@ export class Compare {
       // A worker of its own: the page's keeps what it judges.
       const helper = new Helper(page.desk.engine, page.desk.records);
       try {
-        const answer = await helper.call("analyse", text, [], page.display());
-        const judgement = await helper.call("judge", false);
+        const revision = { number: asked, text, set: [], display: page.display(), stepwise: false };
+        const answer = await helper.call("analyse", revision);
+        const judgement = await helper.call("judge", revision);
         this.done(asked, { answer, judgement });
       } catch (error) {
         if (error instanceof Ended || asked !== this.asked) return;

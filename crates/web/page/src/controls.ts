@@ -54,6 +54,7 @@ const SPECS: Record<string, Spec> = {
   "motion.sweep.amplitude": { label: "Amplitude", min: 0.1, max: 15 },
   "motion.pulse.amplitude": { label: "Amplitude", min: 0.1, max: 15 },
   "motion.pulse.duration": { label: "Duration of the pulse", min: 0.05, max: 5, log: true },
+  "isolator.period": { label: "Period of the isolators", min: 0.5, max: 8 },
   "analysis.tail": { label: "Free vibration after it", min: 0, max: 30 },
 };
 
@@ -82,7 +83,10 @@ class Control {
   private readonly range: HTMLInputElement;
   private readonly field: HTMLInputElement;
   private readonly unit: HTMLElement;
+  private readonly problem = h("p", { class: "fault", hidden: true });
   private ends: [number, number] = [0, 1];
+  /** Something is typed that is not taken in yet. */
+  private typed = false;
   input: InputValue;
 
   constructor(
@@ -90,6 +94,7 @@ class Control {
     private readonly spec: Spec,
     label: string,
     private readonly onset: (path: string, value: string) => void,
+    /** A movement begins or ends. */
     onrest: () => void,
   ) {
     this.input = input;
@@ -97,7 +102,14 @@ class Control {
     this.field = h("input", { type: "text", id, inputmode: "decimal", autocomplete: "off", spellcheck: "false" });
     this.unit = h("span", { class: "unit" });
     this.range = h("input", { type: "range", min: 0, max: 1000, step: 1, "aria-label": label });
-    this.element = h("div", { class: "control" }, h("label", { for: id }, label), this.field, this.unit, this.range);
+    this.element = h("div", { class: "control" }, h("label", { for: id }, label), this.field, this.unit, this.range, this.problem);
+    this.problem.id = `${id}-fault`;
+    this.field.addEventListener("input", () => (this.typed = true));
+    this.field.addEventListener("blur", () => {
+      if (this.typed) this.field.value = this.input.shown ?? "";
+      this.typed = false;
+    });
+    for (const kind of ["pointerdown", "pointerup", "keydown"]) this.range.addEventListener(kind, onrest);
     this.range.addEventListener("input", () => {
       const value = this.valueAt(Number(this.range.value) / 1000);
       this.paint();
@@ -106,6 +118,7 @@ class Control {
     });
     this.range.addEventListener("change", onrest);
     this.field.addEventListener("change", () => {
+      this.typed = false;
       const text = this.field.value.trim().replace("−", "-").replace(/^(\d+),(\d+)$/, "$1.$2");
       const symbol = this.input.symbol ?? "";
       const bare = /^[-+]?[\d.]+(e[-+]?\d+)?$/i.test(text);
@@ -141,8 +154,7 @@ class Control {
 
   update(input: InputValue): void {
     this.input = input;
-    this.field.removeAttribute("aria-invalid");
-    this.field.title = "";
+    this.right();
     const value = input.value ?? 0;
     let { min, max } = this.spec;
     if (max === 0) {
@@ -157,7 +169,7 @@ class Control {
     }
     this.unit.textContent = input.symbol ?? "";
     this.unit.title = `written as ${input.text}`;
-    if (document.activeElement !== this.field && this.root() !== this.field) this.field.value = input.shown ?? "";
+    if (!this.typed) this.field.value = input.shown ?? "";
     if (!this.dragging) {
       this.range.value = String(Math.round(1000 * this.shareOf(value)));
       this.range.setAttribute("aria-valuetext", `${input.shown} ${input.symbol ?? ""}`.trim());
@@ -165,16 +177,27 @@ class Control {
     }
   }
 
-  /** Marks what was written and cannot be. */
+  /** What is typed and not taken in yet is given up. */
+  release(): void {
+    this.typed = false;
+  }
+
+  private right(): void {
+    if (this.problem.hidden) return;
+    this.field.removeAttribute("aria-invalid");
+    this.field.removeAttribute("aria-describedby");
+    this.field.title = "";
+    this.problem.hidden = true;
+  }
+
+  /** Marks what was written and cannot be, and says why beneath it. */
   refuse(written: string, message: string): void {
     this.field.value = written;
     this.field.setAttribute("aria-invalid", "true");
+    this.field.setAttribute("aria-describedby", this.problem.id);
     this.field.title = message;
-  }
-
-  private root(): Element | null {
-    const root = this.field.getRootNode();
-    return root instanceof ShadowRoot ? root.activeElement : null;
+    this.problem.hidden = false;
+    this.problem.textContent = message;
   }
 }
 
@@ -192,14 +215,23 @@ export class Controls {
   readonly element = h("div", {});
   private controls = new Map<string, Control>();
   private shape = "";
-  /** Where the other coefficient stood before a movement took it along. */
-  private along: { path: string; value: number } | undefined;
+  /** Where the other coefficient stood before a movement took it along, and whether that has moved it. */
+  private along: { path: string; value: number; moved: boolean } | undefined;
+  private select: HTMLSelectElement | undefined;
+  /** A value that has a control in another place too. */
+  readonly second = h("div", { class: "second" });
+  private secondPath: string | undefined;
+  private secondControl: Control | undefined;
+  /** It is brought into view until a person moves on the page. */
+  private brings = false;
 
   constructor(
     private readonly onset: (settings: Setting[]) => void,
     /** What is put at the head of the ground motion's group. */
     private readonly motion: HTMLElement,
-  ) {}
+  ) {
+    for (const kind of ["pointerdown", "wheel", "keydown", "touchmove"]) addEventListener(kind, () => (this.brings = false), { passive: true });
+  }
 
   update(state: State): void {
     const wanted = state.inputs.filter((input) => input.value !== undefined && input.value !== null && SPECS[pattern(input.path)]);
@@ -210,11 +242,52 @@ export class Controls {
       this.build(state, wanted);
     }
     for (const input of wanted) this.controls.get(input.path)?.update(input);
+    // A choice that could not be leaves the select as it was.
+    if (this.select) this.select.value = restoring;
+    this.updateSecond(wanted);
+  }
+
+  /** Gives a value a control in another place too; none without a path. */
+  twice(path: string | undefined, state: State | undefined): void {
+    this.secondPath = path;
+    this.brings = path !== undefined;
+    this.secondControl = undefined;
+    this.second.replaceChildren();
+    if (state) this.updateSecond(state.inputs);
+  }
+
+  /** Brings it into view where a person has not moved since; in another page's frame that page would be scrolled. */
+  bring(): void {
+    if (this.brings && window.self === window.top) requestAnimationFrame(() => this.second.scrollIntoView({ block: "nearest" }));
+  }
+
+  private updateSecond(inputs: InputValue[]): void {
+    const input = inputs.find(({ path }) => path === this.secondPath);
+    const known = this.secondControl;
+    if (!input || typeof input.value !== "number") {
+      this.second.replaceChildren();
+      this.secondControl = undefined;
+    } else if (known) known.update(input);
+    else {
+      this.secondControl = new Control(input, SPECS[pattern(input.path)]!, labelOf(input.path), (path, value) => this.set(path, value), () => (this.along = undefined));
+      this.second.replaceChildren(this.secondControl.element);
+      this.bring();
+    }
+  }
+
+  /** Another model is opened: what is typed and not taken in yet is given up. */
+  release(): void {
+    this.along = undefined;
+    for (const control of this.controls.values()) control.release();
+    this.secondControl?.release();
   }
 
   /** Marks values that were set and cannot be. */
   refuse(settings: Setting[], message: string): void {
-    for (const [path, value] of settings) this.controls.get(path)?.refuse(value, message);
+    for (const [path, value] of settings) {
+      this.controls.get(path)?.refuse(value, message);
+      if (path === this.secondPath) this.secondControl?.refuse(value, message);
+    }
   }
 
   private restoring(state: State): string {
@@ -243,6 +316,7 @@ export class Controls {
       into(group, control.element);
     }
     const restoring = this.restoring(state);
+    this.select = undefined;
     if (restoring) {
       const select = h("select", { id: `restoring-${++made}` }, ...RESTORING.map(([key, label]) => h("option", { value: key, selected: key === restoring }, label)));
       select.addEventListener("change", () => {
@@ -250,6 +324,7 @@ export class Controls {
         const setting: Setting = select.value === "none" ? ["slider.spring", "0 N/m"] : [`slider.${chosen[0]}`, chosen[2](state)];
         this.onset([setting]);
       });
+      this.select = select;
       const place = h("div", { class: "choice" }, h("label", { for: select.id }, "Restoring force"), select);
       const slider = groups.get("Slider") ?? [];
       groups.set("Slider", [...slider.slice(0, 2), place, ...slider.slice(2)]);
@@ -273,9 +348,12 @@ export class Controls {
     const other = path === "slider.kinetic_friction" ? "slider.static_friction" : path === "slider.static_friction" ? "slider.kinetic_friction" : undefined;
     const beside = other && this.controls.get(other)?.input.value;
     if (other && typeof beside === "number" && Number.isFinite(number)) {
-      if (this.along?.path !== other) this.along = { path: other, value: beside };
-      const wanted = path === "slider.kinetic_friction" ? Math.max(number, this.along.value) : Math.min(number, this.along.value);
-      if (wanted !== beside) settings.unshift([other, wanted === number ? value : String(wanted)]);
+      if (this.along?.path !== other) this.along = { path: other, value: beside, moved: false };
+      const { along } = this;
+      const wanted = path === "slider.kinetic_friction" ? Math.max(number, along.value) : Math.min(number, along.value);
+      // Once moved it is said with every step: what the last answer says may be older than what was set since.
+      along.moved ||= wanted !== along.value;
+      if (along.moved) settings.unshift([other, wanted === number ? value : String(wanted)]);
     }
     this.onset(settings);
   }

@@ -1,6 +1,6 @@
 /** Workers and what they are asked: one at a time, the newest wish first, late answers dropped. */
 
-import type { Answer, Calls, Display, Fault, Judgement, Op, Reply, Setting } from "./types";
+import type { Answer, Calls, Fault, Judgement, Op, Reply, Revision, Setting } from "./types";
 
 /** A module, and what makes a worker for it. */
 export interface Part {
@@ -48,8 +48,12 @@ export class Helper {
   onprogress: (done: number, planned: number) => void = () => {};
   /** Told where the worker is silent for long, and where it speaks again. */
   onbusy: (busy: boolean) => void = () => {};
+  /** Told that an answer is being judged, and what its text says. */
+  onjudging: (number: number, text: string) => void = () => {};
   /** Told of what was judged at rest. */
   onjudged: (number: number, found: Judgement | Fault) => void = () => {};
+  /** Told that its worker is gone, with why where nobody ended it; what it was to judge has no answer. */
+  onended: (died: string | undefined) => void = () => {};
   /** Told where the whole module has taken the first one's place, and knows of no answer yet. */
   onwhole: () => unknown = () => {};
   /** Whether the first module is at work. */
@@ -75,10 +79,11 @@ export class Helper {
     const part = (this.early && this.engine.first) || this.engine;
     const worker = part.worker();
     this.worker = worker;
-    worker.onmessage = (event: MessageEvent<Reply>) => this.hear(event.data);
+    worker.onmessage = (event: MessageEvent<Reply>) => this.worker === worker && this.hear(event.data);
+    worker.onmessageerror = () => this.worker === worker && this.lose("what the worker said could not be read");
     worker.onerror = (event) => {
       event.preventDefault();
-      this.lose(event.message || "the worker ended");
+      if (this.worker === worker) this.lose(event.message || "the worker ended");
     };
     let module: WebAssembly.Module;
     try {
@@ -105,6 +110,11 @@ export class Helper {
 
   /** Ends the worker; what it was asked gets no answer. The next request gets a new one. */
   end(reason = "it was stopped"): void {
+    this.give(new Ended(reason), undefined);
+  }
+
+  /** Gives the worker up; all that it was asked fails with an error. */
+  private give(error: Error, died: string | undefined): void {
     this.worker?.terminate();
     this.worker = undefined;
     this.ready = false;
@@ -114,7 +124,8 @@ export class Helper {
     const left = [...(this.current ? [this.current] : []), ...this.queue];
     this.current = undefined;
     this.queue = [];
-    for (const waiting of left) waiting.failed(new Ended(reason));
+    this.onended(died);
+    for (const waiting of left) waiting.failed(error);
   }
 
   private ready = false;
@@ -182,6 +193,7 @@ export class Helper {
     if ("judging" in reply) {
       this.judging = true;
       this.watch();
+      this.onjudging(reply.judging, reply.text);
       return;
     }
     if ("judged" in reply) {
@@ -190,10 +202,8 @@ export class Helper {
       else clearTimeout(this.timer);
       this.onbusy(false);
       if ("judgement" in reply) this.onjudged(reply.judged, reply.judgement);
-      else {
-        if (reply.fault.fatal) this.lose(reply.fault.message);
-        this.onjudged(reply.judged, reply.fault);
-      }
+      else if (reply.fault.fatal) this.lose(reply.fault.message);
+      else this.onjudged(reply.judged, reply.fault);
       return;
     }
     const current = this.current;
@@ -219,37 +229,58 @@ export class Helper {
 
   /** The module trapped: its worker is ended, and all that was asked of it fails. */
   private lose(message: string): void {
-    const fault = { message: `the analysis ended unexpectedly: ${message}` };
-    const left = [...(this.current ? [this.current] : []), ...this.queue];
-    this.current = undefined;
-    this.queue = [];
-    this.end();
-    for (const waiting of left) waiting.failed(new ModuleError(fault));
+    const died = `the analysis ended unexpectedly: ${message}`;
+    this.give(new ModuleError({ message: died, fatal: true }), died);
   }
 }
 
-/** What is to be shown. */
-export interface Wish {
+/** An answer that is shown. */
+export interface Answered {
+  of: Revision;
+  /** The text of the revision as it was asked: its keys stand in `of.text` once it rests. */
+  asked: string;
+  answer: Answer;
+  judgement?: Judgement;
+  /** Why it is not judged, where it will not be by itself. */
+  unchecked?: string;
+  /** The files have changed since: it cannot be made again. */
+  gone?: boolean;
+}
+
+/** Files made of an answer, with its model's text and the files that it was made of. */
+export interface Files {
+  answered: Answered;
+  records: Map<string, Uint8Array>;
   text: string;
-  set: Setting[];
-  display: Display;
+  files: string[];
 }
 
 /** How long an answer must stand before it is judged, in ms: longer than a frame. */
 const REST_MS = 25;
 
-/** The one worker that answers what the page shows. */
+/**
+ * The one state of the page: what is wanted, and what is known of it, under one number. Every change of the model,
+ * its files or how it is shown is a revision with the next number; one worker answers the newest and judges it once
+ * it rests. What cannot be analysed leaves the last answer standing.
+ */
 export class Desk {
   readonly records = new Map<string, Uint8Array>();
   readonly helper: Helper;
-  private wish: (Wish & { number: number }) | undefined;
-  private asked = 0;
-  private shown: (Wish & { number: number }) | undefined;
+  wanted: Revision = { number: 0, text: "", set: [], display: "si", stepwise: false };
+  answered: Answered | undefined;
   private number = 0;
-  stepwise = false;
-  onanswer: (answer: Answer, wish: Wish) => void = () => {};
-  onjudged: (judgement: Judgement, wish: Wish) => void = () => {};
-  onfault: (fault: Fault, wish: Wish) => void = () => {};
+  /** Numbers of the revision in work, of that which was answered or refused last, and of that whose worker died. */
+  private asked = 0;
+  private done = 0;
+  private lost = 0;
+  private waiting: (() => void)[] = [];
+  /** Told where another revision is wanted, or its keys stand in its text. */
+  onwanted: () => void = () => {};
+  onanswer: (answered: Answered) => void = () => {};
+  /** Told where an answer is judged, or will not be by itself. */
+  onjudged: (answered: Answered) => void = () => {};
+  onfault: (fault: Fault, of?: Revision) => void = () => {};
+  /** Told where what is wanted is judged. */
   onrest: () => void = () => {};
 
   constructor(readonly engine: Engine) {
@@ -257,59 +288,173 @@ export class Desk {
     // An answer of the first module that has just come is taken in before it is asked for again.
     this.helper.onwhole = () =>
       setTimeout(() => {
-        if (this.shown && !this.wish && !this.asked) this.want(this.shown);
+        if (this.asked || this.answered?.judgement) return;
+        this.done = 0;
+        void this.turn();
       });
-    this.helper.onjudged = (number, found) => {
-      if (this.shown?.number === number && number === this.number) this.settle(this.shown, found);
-    };
+    this.helper.onjudging = (number, text) => this.fold(number, text);
+    this.helper.onjudged = (number, found) => this.settle(number, found);
+    this.helper.onended = (died) => this.unjudged(died);
   }
 
-  /** A wish replaces the one before it; there is at most one in work. */
-  want(wish: Wish): void {
-    this.wish = { ...wish, number: ++this.number };
+  /** Whether nothing of what is wanted is on its way any more. */
+  get rests(): boolean {
+    const { answered } = this;
+    return !this.asked && this.done === this.wanted.number && (!answered || answered.judgement !== undefined || answered.unchecked !== undefined);
+  }
+
+  /** Whether what is wanted has no answer, and will have none. */
+  get refused(): boolean {
+    return this.done === this.wanted.number && this.answered?.of.number !== this.wanted.number;
+  }
+
+  /** Waits until it rests. */
+  rested(): Promise<void> {
+    return this.rests ? Promise.resolve() : new Promise((done) => this.waiting.push(done));
+  }
+
+  /** Wants another revision; it replaces the one before it, and at most one is in work. */
+  want(change: Partial<Omit<Revision, "number">>): void {
+    this.wanted = { ...this.wanted, ...change, number: ++this.number };
+    this.onwanted();
     void this.turn();
   }
 
+  /** Sets values of the model; the newest value of a key counts. */
+  set(settings: Setting[]): void {
+    const keys = new Set(settings.map(([path]) => path));
+    this.want({ set: [...this.wanted.set.filter(([path]) => !keys.has(path)), ...settings] });
+  }
+
   private async turn(): Promise<void> {
-    const wish = this.wish;
-    if (!wish || this.asked) return;
-    this.wish = undefined;
-    this.asked = wish.number;
+    const of = this.wanted;
+    if (this.asked || this.done === of.number) return;
+    this.asked = of.number;
     try {
-      const rest = { after_ms: REST_MS, number: wish.number, stepwise: this.stepwise };
-      const answer = await this.helper.call("analyse", wish.text, wish.set, wish.display, rest);
+      const answer = await this.helper.call("analyse", of, REST_MS);
       this.asked = 0;
-      this.shown = wish;
-      this.onanswer(answer, wish);
+      this.done = of.number;
+      this.answered = { of, asked: of.text, answer };
+      this.onanswer(this.answered);
     } catch (error) {
       this.asked = 0;
-      if (error instanceof ModuleError) this.onfault(error.fault, wish);
+      this.failed(of, error instanceof ModuleError ? error.fault : { message: error instanceof Ended ? "the analysis was stopped" : String(error) });
     }
-    if (this.wish) void this.turn();
+    void this.turn();
   }
 
-  /** Judges what is shown once more, unless something newer is wanted by then. */
-  async judge(): Promise<void> {
-    const of = this.shown;
-    if (!of || this.wish || this.asked || of.number !== this.number) return;
-    try {
-      const judgement = await this.helper.call("judge", this.stepwise);
-      if (of.number === this.number) this.settle(of, judgement);
-    } catch (error) {
-      if (error instanceof ModuleError) this.settle(of, error.fault);
+  private failed(of: Revision, fault: Fault): void {
+    // A worker that died is replaced once.
+    const again = fault.fatal && this.lost !== of.number;
+    if (again) this.lost = of.number;
+    // Something newer is asked for instead.
+    if (again || of.number !== this.wanted.number) return;
+    this.done = of.number;
+    const good = this.answered;
+    const same = good && !good.gone && (good.asked === of.text || good.of.text === of.text);
+    // Keys that cannot be set are not asked for again.
+    if (same) {
+      this.wanted = good.of;
+      this.done = good.of.number;
+    } else if (of.set.length > 0) this.wanted = { ...of, set: [], number: ++this.number };
+    this.onwanted();
+    this.onfault(fault, of);
+    // What stays is judged too.
+    if (good && !good.judgement && good.unchecked === undefined) this.check();
+    else {
+      // It may have been judged while something else was wanted.
+      if (same && good.judgement) this.onrest();
+      this.release();
     }
   }
 
-  private settle(of: Wish, found: Judgement | Fault): void {
+  /** Judges what is shown once more. */
+  check(): void {
+    const { answered } = this;
+    if (!answered) return;
+    answered.unchecked = undefined;
+    this.onjudged(answered);
+    // What becomes of it is told as of all that is judged.
+    this.helper.call("check", answered.of).catch((error: unknown) => {
+      const gone = this.answered !== answered || answered.judgement !== undefined;
+      if (!gone && error instanceof ModuleError && !error.fault.fatal) this.leave(answered, error.fault);
+    });
+  }
+
+  /** The keys set stand in the text now. */
+  private fold(number: number, text: string): void {
+    const { answered } = this;
+    if (answered?.of.number !== number) return;
+    answered.of = { ...answered.of, text, set: [] };
+    if (this.wanted.number !== number) return;
+    this.wanted = answered.of;
+    this.onwanted();
+  }
+
+  private settle(number: number, found: Judgement | Fault): void {
+    const { answered } = this;
+    if (answered?.of.number !== number) return;
     if ("certificate" in found) {
-      this.onjudged(found, of);
-      this.onrest();
-    } else this.onfault(found, { text: "", set: [], display: "si" });
+      answered.judgement = found;
+      this.onjudged(answered);
+      if (this.wanted.number === number) this.onrest();
+      this.release();
+    } else this.leave(answered, found);
   }
 
-  async add(name: string, bytes: Uint8Array): Promise<void> {
+  /** An answer stays without a check; the certificate says why. */
+  private leave(answered: Answered, { message }: Fault): void {
+    answered.unchecked = message;
+    this.onjudged(answered);
+    this.release();
+  }
+
+  /** The worker is gone that was to judge what is shown. */
+  private unjudged(died: string | undefined): void {
+    const { answered } = this;
+    if (!answered || answered.judgement || answered.unchecked !== undefined || this.asked || this.done !== this.wanted.number) return;
+    const { number } = answered.of;
+    if (died !== undefined && this.lost !== number) {
+      this.lost = number;
+      // Not before all that was asked of that worker has failed.
+      setTimeout(() => this.answered === answered && this.check());
+    } else this.leave(answered, { message: died ?? "the check was stopped" });
+  }
+
+  private release(): void {
+    if (!this.rests) return;
+    const waiting = this.waiting;
+    this.waiting = [];
+    for (const done of waiting) done();
+  }
+
+  /** Files of what is judged, and what they are of; of the last answer where what is wanted has none. */
+  async files(names: string[], command: (of: Revision) => string): Promise<Files> {
+    await this.rested();
+    const { answered } = this;
+    if (!answered) throw new ModuleError({ message: "nothing was analysed yet" });
+    if (answered.gone) throw new ModuleError({ message: "the files of what is shown have changed since, and the model cannot be analysed on them" });
+    // As they are now: what changes later is asked of the worker later.
+    const records = new Map(this.records);
+    return { answered, records, ...(await this.helper.call("files", answered.of, names, command(answered.of))) };
+  }
+
+  /** Keeps a file; what is shown stays as it is until `changed`. */
+  async put(name: string, bytes: Uint8Array): Promise<void> {
     this.records.set(name, bytes);
     await this.helper.call("add", name, bytes);
+  }
+
+  /** Forgets a file. */
+  drop(name: string): void {
+    this.records.delete(name);
+    void this.helper.call("remove", name).catch(() => {});
+  }
+
+  /** The files are others: the model is analysed on them. */
+  changed(): void {
+    if (this.answered) this.answered.gone = true;
+    this.want({});
   }
 }
 

@@ -1,5 +1,6 @@
 /** The runs of a result over one another: both axes to choose, values under the pointer, a click that loads a run. */
 
+import { labelOf } from "./controls";
 import { digits, fill, h } from "./dom";
 import { FigureView, type Hit } from "./figure";
 import type { AxisData, FigureData, RunColumn, RunTable, SeriesData } from "./types";
@@ -37,7 +38,7 @@ export class Explorer {
   private rows: number[] = [];
 
   constructor(
-    tables: RunTable[],
+    runs: RunTable[],
     private readonly name: string,
     dark: () => boolean,
     /** What a click does, in words, and the click. */
@@ -45,6 +46,8 @@ export class Explorer {
     take: (table: RunTable, row: number) => void,
     first: [x: RegExp, y: RegExp],
   ) {
+    // Values of the model are called as their fields are.
+    const tables = runs.map((table) => ({ ...table, columns: table.columns.map((column) => (column.path ? { ...column, title: labelOf(column.name) } : column)) }));
     this.table = tables[0]!;
     this.which = h("select", { "aria-label": "Table" }, ...tables.map(({ name }, i) => h("option", { value: i }, name)));
     this.which.addEventListener("change", () => {

@@ -6,8 +6,8 @@ import type { Stage } from "./stage";
 const KINDS = ["video/webm;codecs=vp9", "video/webm", "video/mp4"];
 const [WIDTH, TOP] = [960, 44];
 
-/** Records the animation from one instant to another as it plays; `undefined` where the browser makes no films. */
-export async function film(stage: Stage, title: string, [from, to]: [number, number]): Promise<{ blob: Blob; ending: string } | undefined> {
+/** Records the animation from one instant to another as it plays, as long as it is the same one; `undefined` where the browser makes no films. */
+export async function film(stage: Stage, title: string, [from, to]: [number, number], same: () => boolean): Promise<{ blob: Blob; ending: string } | undefined> {
   const kind = globalThis.MediaRecorder && KINDS.find((kind) => MediaRecorder.isTypeSupported(kind));
   if (!kind) return undefined;
   const { canvas } = stage;
@@ -42,7 +42,7 @@ export async function film(stage: Stage, title: string, [from, to]: [number, num
     const step = () => {
       draw();
       // It starts anew at its end.
-      const over = stage.time >= to || stage.time < last - 1e-9 || performance.now() - started > most || !stage.playing;
+      const over = stage.time >= to || stage.time < last - 1e-9 || performance.now() - started > most || !stage.playing || !same();
       last = stage.time;
       if (over) done();
       else requestAnimationFrame(step);

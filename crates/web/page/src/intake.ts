@@ -21,27 +21,52 @@ export interface Taking {
   setText: (text: string) => void;
   /** Moves the table by a record. */
   take: (record: RecordChoice) => void;
-  wish: () => void;
   study: (plan: string) => void;
   /** Several records came at once. */
   many: () => void;
   listRecords: () => void;
+  /** A record that counts in no suite unless a person says so. */
+  leave: (name: string) => void;
   fault: (fault: Fault) => void;
 }
 
 export class Intake {
-  /** Records that the address names and that are not here. */
+  /** Files that the address names, with their hashes, and that are not here. */
   wanted: Shared["records"] = [];
+  /** The file that the model names and that is not here. */
+  private missed: string | undefined;
 
   /** What was said of a file of those that come together: it is tried for the next ones. */
   private answered: { units: string; dt: string } | undefined;
+  /** Whether those of them with a vertical motion alone are to move the table. */
+  private upright: boolean | undefined;
 
   constructor(private readonly page: Taking) {}
 
-  /** Files that were dropped or opened: models, plans and records. */
-  async files(files: File[]): Promise<void> {
+  /** A file that the model names is not here, or none any more. */
+  miss(path: string | undefined): void {
+    this.missed = path;
+  }
+
+  /** What asks for the file that is not here: a sentence, and what a person chooses it by. */
+  asking(path: string): [sentence: string, choose: HTMLElement] {
+    const name = lastPart(path);
+    const of = this.wanted.some((record) => record.name === name) ? "link" : "model";
+    const input = h("input", { type: "file", class: "hidden", tabindex: -1, "aria-label": name });
+    input.addEventListener("change", () => {
+      void this.files([...(input.files ?? [])], name);
+      input.value = "";
+    });
+    const choose = h("button", { type: "button", class: "main", onclick: () => input.click() }, `Choose ${name}…`);
+    return [`This ${of} needs the file ${name}: choose it, or drop it on the page.`, h("span", {}, input, choose)];
+  }
+
+  /** Files that were dropped or opened: models, plans and records; `as`: chosen for a file of that name. */
+  async files(files: File[], as?: string): Promise<void> {
     const taken: RecordChoice[] = [];
     this.answered = undefined;
+    this.upright = undefined;
+    const names = new Set<string>();
     let plan: string | undefined;
     for (const file of files) {
       try {
@@ -61,11 +86,14 @@ export class Intake {
           continue;
         }
         if (isModes(bytes)) {
-          await this.page.desk.add(file.name, bytes);
-          this.page.wish();
+          await this.page.desk.put(file.name, bytes);
+          this.page.desk.changed();
           continue;
         }
-        const choice = await this.record(file.name, bytes);
+        // Two of one name, from two folders, are two.
+        const name = as ?? another(file.name, names);
+        names.add(name);
+        const choice = await this.record(name, bytes);
         if (choice) taken.push(choice);
       } catch (error) {
         if (error instanceof ModuleError) this.page.fault(error.fault);
@@ -79,14 +107,18 @@ export class Intake {
   }
 
   /** Takes a record in; asks for what its file does not say. */
-  private async record(name: string, bytes: Uint8Array): Promise<RecordChoice | undefined> {
+  private async record(dropped: string, bytes: Uint8Array): Promise<RecordChoice | undefined> {
     const { helper, records } = this.page.desk;
-    const before = records.get(name);
-    await this.page.desk.add(name, bytes);
     const sha256 = await helper.call("hash", bytes);
+    // The address knows its files whatever they are called here.
+    const name = this.wanted.find((record) => record.sha256 === sha256)?.name ?? dropped;
+    const before = records.get(name);
+    await this.page.desk.put(name, bytes);
     const known = RECORDS.find((record) => record.name.endsWith(`/${name}`));
     let choice: RecordChoice | null = null;
-    const wanted = this.wanted.find((record) => record.name === name);
+    const missed = this.missed !== undefined && lastPart(this.missed) === name;
+    const wanted = this.wanted.find((record) => record.name === name) ?? (missed ? { name, sha256: "" } : undefined);
+    let beside = false;
     try {
       if (wanted && wanted.sha256 && wanted.sha256 !== sha256) {
         throw new ModuleError({ message: `${name}: expected the file of the address, with the SHA-256 ${wanted.sha256.slice(0, 12)}…, found another of this name, ${sha256.slice(0, 12)}…` });
@@ -104,6 +136,7 @@ export class Intake {
         choice = { name };
       } else if (inspected?.plain) {
         choice = { name };
+        if (inspected.upright) beside = !(this.upright ??= await this.askUpright(name));
       } else if (inspected && !inspected.channels.some((channel) => channel.usable || channel.counts)) {
         const found = [...new Set(inspected.channels.map((channel) => channel.quantity))].join(", ");
         throw new ModuleError({ message: `${name}: expected a channel of acceleration, found ${found}` });
@@ -112,17 +145,21 @@ export class Intake {
       } else if (fault) throw new ModuleError(fault);
     } finally {
       if (!choice) {
-        if (before) records.set(name, before);
-        else records.delete(name);
-        void helper.call(before ? "add" : "remove", name, before as Uint8Array).catch(() => {});
+        if (before) void this.page.desk.put(name, before).catch(() => {});
+        else this.page.desk.drop(name);
       }
     }
     if (!choice) return undefined;
     this.page.own.set(name, { sha256, choice });
+    if (before && !wanted) this.page.desk.changed();
+    if (beside) {
+      this.page.leave(name);
+      return undefined;
+    }
     if (wanted) {
       // The model of the address says how it is read.
       this.wanted = this.wanted.filter((record) => record !== wanted);
-      this.page.wish();
+      this.page.desk.changed();
       return undefined;
     }
     return choice;
@@ -142,6 +179,31 @@ export class Intake {
     }
   }
 
+  /** Asks whether a motion that is vertical is to move the table all the same. */
+  private askUpright(name: string): Promise<boolean> {
+    const dialog = h("dialog", { "aria-labelledby": "upright-title" });
+    let table = false;
+    const button = (label: string, moves: boolean, main: boolean) =>
+      h("button", { type: "button", class: main ? "main" : "", onclick: () => { table = moves; dialog.close(); } }, label);
+    dialog.append(
+      h(
+        "form",
+        { method: "dialog" },
+        h("h2", { id: "upright-title" }, name),
+        h("p", {}, "The motion of this record is vertical. Kept beside, a model may name it as its vertical motion."),
+        h("div", { class: "actions" }, button("Keep it beside", false, true), button("Use it", true, false)),
+      ),
+    );
+    this.page.root.append(dialog);
+    dialog.showModal();
+    return new Promise((resolve) =>
+      dialog.addEventListener("close", () => {
+        dialog.remove();
+        resolve(table);
+      }),
+    );
+  }
+
   /** Asks for channel, units and step where the file is silent. */
   private ask(name: string, inspected: Inspected | undefined, fault: Fault | undefined): Promise<RecordChoice | null> {
     const units = h("input", { type: "text", name: "units", placeholder: "g", autocomplete: "off" });
@@ -153,7 +215,8 @@ export class Intake {
     const dialog = h("dialog", { "aria-labelledby": "ask-title" });
     const choices = (inspected: Inspected | undefined) => {
       channelField.hidden = !inspected || inspected.channels.length < 2;
-      fill(channel, ...(inspected?.channels ?? []).map((c) => h("option", { value: c.name, disabled: !c.usable && !c.counts }, `${c.name} (${c.quantity})`)));
+      const moving = (inspected?.channels ?? []).filter((c) => c.usable || c.counts);
+      fill(channel, ...moving.map((c) => h("option", { value: c.name }, `${c.name}${c.vertical ? ", vertical" : ""} (${c.quantity})`)));
       // A vertical component is chosen by whoever wants it.
       const along = inspected?.channels.find((c) => (c.usable || c.counts) && !c.vertical);
       if (along) channel.value = along.name;
@@ -186,7 +249,8 @@ export class Intake {
       });
       form.addEventListener("submit", (event) => {
         event.preventDefault();
-        this.page.desk.helper.call("inspect", name, units.value, dt.value).then(
+        dialog.setAttribute("aria-busy", "true");
+        this.page.desk.helper.call("inspect", name, units.value, dt.value).finally(() => dialog.removeAttribute("aria-busy")).then(
           (read) => {
             try {
               refuseLong(name, read);
@@ -218,6 +282,17 @@ export class Intake {
       dialog.showModal();
     });
   }
+}
+
+/** The name of a file without its folders. */
+export const lastPart = (path: string) => path.replace(/^.*[/\\]/, "");
+
+/** A name that is none of some. */
+function another(name: string, names: Set<string>): string {
+  const [, stem = name, ending = ""] = /^(.*?)(\.[^.]*)?$/s.exec(name) ?? [];
+  let made = name;
+  for (let count = 2; names.has(made); count++) made = `${stem} (${count})${ending}`;
+  return made;
 }
 
 /** Whether a file is a table of the modes of a structure, by its header. */

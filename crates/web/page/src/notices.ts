@@ -54,6 +54,13 @@ export class Notices {
     fill(this.fault, h("p", {}, message), h("span", { class: "drop-hint" }, "The last good state stays."), show && h("button", { type: "button", onclick: show }, "Show the place"));
   }
 
+  /** What is needed before there is an answer, and what gives it. */
+  needs(message: string, give: HTMLElement): void {
+    this.kept = false;
+    this.fault.hidden = false;
+    fill(this.fault, h("p", {}, message), give);
+  }
+
   right(): void {
     if (!this.kept) this.fault.hidden = true;
   }

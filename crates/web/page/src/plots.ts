@@ -211,7 +211,8 @@ export class Chart {
       font: "12px system-ui, sans-serif",
       labelFont: "12px system-ui, sans-serif",
     };
-    const minus = (_: uPlot, splits: number[]) => splits.map((v) => String(v).replace("-", "−"));
+    // Sums of steps are told without their rounding errors.
+    const minus = (_: uPlot, splits: number[]) => splits.map((v) => (Math.abs(v) < 1e-6 * Math.abs(splits[1]! - splits[0]!) ? "0" : String(Number(v.toPrecision(8))).replace("-", "−")));
     this.plot = new uPlot(
       {
         width: Math.max(200, this.box.clientWidth),

@@ -3,6 +3,7 @@
 import type { Desk } from "./desk";
 import { fill, h } from "./dom";
 import { MODELS, RECORDS } from "./examples";
+import { lastPart } from "./intake";
 import { onMade, onRecord, type RecordChoice, renamed } from "./motion";
 import type { State } from "./types";
 
@@ -46,31 +47,36 @@ export class Records {
     return RECORDS.find((record) => record.name === name) ?? this.own.get(name)?.choice ?? { name };
   }
 
-  /** Paths of all components of the motion, as the model names them. */
-  private paths(state = this.page.state()): string[] {
-    return state?.inputs.filter(({ path }) => /^motion\.(record|record_y|vertical)$/.test(path)).map(({ text }) => text) ?? [];
+  /** Paths of all components of the motion, as a model names them. */
+  private paths(state: State): string[] {
+    return state.inputs.filter(({ path }) => /^motion\.(record|record_y|vertical)$/.test(path)).map(({ text }) => text);
   }
 
-  /** The files of the motion, by their paths in the model. */
-  bytes(): [path: string, bytes: Uint8Array][] {
-    const { records } = this.page.desk;
-    return this.paths().flatMap((path): [string, Uint8Array][] => {
-      const bytes = records.get(path) ?? records.get(path.replace(/^.*[/\\]/, ""));
+  /** What the table moves by: the names of the records, and words where the motion is made. */
+  moved(state: State): string {
+    const labels = this.paths(state).map((path) => this.all().find(({ name }) => name === path)?.label ?? lastPart(path));
+    return labels.length > 0 ? labels.join(" and ") : state.motion.words;
+  }
+
+  /** Those files that the motion of a model is of, by their paths in it. */
+  bytes(state: State, files: Map<string, Uint8Array>): [path: string, bytes: Uint8Array][] {
+    return this.paths(state).flatMap((path): [string, Uint8Array][] => {
+      const bytes = files.get(path) ?? files.get(lastPart(path));
       return bytes ? [[path, bytes]] : [];
     });
   }
 
-  /** Those of the person's own that the model needs, and B where there is one, as the address names them. */
-  needed(pinned: State | undefined): { name: string; sha256: string }[] {
-    const used = [...this.paths(), ...(pinned ? this.paths(pinned) : [])];
-    return [...this.own].filter(([name]) => used.includes(name)).map(([name, { sha256 }]) => ({ name, sha256 }));
+  /** Those of the person's own that a model needs, and B where there is one, as the address names them. */
+  needed(state: State, pinned: State | undefined): { name: string; sha256: string }[] {
+    const used = [...this.paths(state), ...(pinned ? this.paths(pinned) : [])];
+    return [...this.own].filter(([name]) => used.some((path) => path === name || lastPart(path) === name)).map(([name, { sha256 }]) => ({ name, sha256 }));
   }
 
   show(): void {
     const remove = (name: string) => {
       this.own.delete(name);
-      this.page.desk.records.delete(name);
-      void this.page.desk.helper.call("remove", name);
+      this.page.desk.drop(name);
+      this.page.desk.changed();
       this.show();
     };
     fill(
@@ -96,7 +102,11 @@ export class Records {
     ];
     if (now && !options.some(([value]) => value === now)) options.unshift([now, record ?? now]);
     const choices = JSON.stringify([options, now]);
-    if (choices === this.choices) return;
+    if (choices === this.choices) {
+      // A choice that could not be leaves the select as it was.
+      this.select.value = now;
+      return;
+    }
     this.choices = choices;
     fill(this.select, ...options.map(([value, label]) => h("option", { value, selected: value === now }, label!)));
   }

@@ -1,6 +1,7 @@
 /** Tables of results beside the pictures. */
 
 import { digits, fill, h } from "./dom";
+import type { Answered } from "./desk";
 import type { Answer, Judgement, State, Warning } from "./types";
 
 /** What the figures of the check say. */
@@ -18,6 +19,8 @@ interface Figure {
   text: string;
   unit: string;
   over?: boolean;
+  /** It has either sign. */
+  signed?: boolean;
 }
 
 /** Share of the peak below which a residual is that of rounding. */
@@ -31,18 +34,18 @@ function figures({ headline, units, structure }: State): Figure[] {
   return [
     length("Peak sliding", headline.peak_m),
     // What is left of a return to where it stood is rounding.
-    length("Residual", Math.abs(headline.residual_m) < ROUNDING * headline.peak_m ? 0 : headline.residual_m),
+    { ...length("Residual", Math.abs(headline.residual_m) < ROUNDING * headline.peak_m ? 0 : headline.residual_m), signed: true },
     gap ? { label: "Gap used", value: gapRatio, text: digits(100 * gapRatio, 3), unit: "%", over: gapRatio > 1 } : { label: "Times it slides", value: slips, text: String(slips), unit: "" },
     roof === null ? acceleration("Block accel\u00aderation", headline.block_m_per_s2) : acceleration("Roof accel\u00aderation", roof),
     ...(roof === null ? [] : [{ label: "Base shear / weight", value: baseShear, text: digits(baseShear, 3), unit: "" }]),
   ];
 }
 
-/** What B has instead, and by how much the present value differs from it. */
+/** What B has instead, and by how much the present value differs from it; no share of what lies about zero. */
 function versus(now: Figure, pinned: Figure | undefined): string {
   if (!pinned) return "";
   const share = Math.round(100 * (now.value / pinned.value - 1));
-  const more = pinned.value === 0 || !Number.isFinite(share) ? "" : share === 0 ? ", as now" : `, now ${share > 0 ? "+" : "−"}${Math.abs(share)} %`;
+  const more = pinned.signed || pinned.value === 0 || !Number.isFinite(share) ? "" : share === 0 ? ", as now" : `, now ${share > 0 ? "+" : "−"}${Math.abs(share)} %`;
   return `B ${pinned.text}${pinned.unit && ` ${pinned.unit}`}${more}`;
 }
 
@@ -142,17 +145,17 @@ const LOADING = {
 export function loading(into: HTMLElement, shown: keyof typeof LOADING): void {
   if (into.dataset.state === shown) return;
   into.dataset.state = shown;
-  into.className = "certificate";
+  into.classList.remove("holds", "fails");
   fill(into, h("strong", {}, "Loading"), h("span", {}, LOADING[shown]));
 }
 
-/** The certificate of a judged answer; that there is none yet, without one. `last`: of the last good state. */
-export function certificate(into: HTMLElement, judgement: Judgement | undefined, last = false): void {
+/** The certificate of an answer; that there is none yet, or none at all, where `check` checks it. `last`: what is wanted now has no answer, and it is of the one before. */
+export function certificate(into: HTMLElement, { judgement, unchecked }: Answered, last: boolean, check: () => void): void {
   const say = (kind: string, lead: string, ...more: (Node | string)[]) => {
-    into.className = `certificate ${kind}`;
+    for (const one of ["holds", "fails"]) into.classList.toggle(one, one === kind);
     fill(into, h("strong", {}, lead), ...more);
   };
-  if (!judgement) {
+  if (!judgement && unchecked === undefined) {
     if (into.dataset.state !== "waiting") say("", "Not yet checked", h("span", {}, "It is checked as soon as the values rest."));
     into.dataset.state = "waiting";
     return;
@@ -160,6 +163,10 @@ export function certificate(into: HTMLElement, judgement: Judgement | undefined,
   into.dataset.state = "judged";
   if (last) {
     say("", "Of the last good state", h("span", {}, "What stands in the model now cannot be analysed."));
+    return;
+  }
+  if (!judgement) {
+    say("", "Not checked", h("span", {}, `${unchecked}.`.replace(/^./, (first) => first.toUpperCase())), h("span", { class: "actions" }, h("button", { type: "button", onclick: check }, "Check it")));
     return;
   }
   const { holds, bound, figures, closestCall, iterations } = judgement.certificate;

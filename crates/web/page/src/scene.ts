@@ -79,9 +79,12 @@ export interface Part {
 /** Height of a storey, and size of the block, where the model gives none. */
 const STOREY_M = 3;
 
-/** Room below the table, and above the roof, in px. */
-const BELOW = 52;
+/** Room below the table, where the gauge is, and above the roof, in px. */
+const BELOW = 66;
 const ABOVE = 46;
+
+/** Width of the word friction, with a margin, in px. */
+const WORD = 50;
 
 /** Length of the arrow of the largest friction force, in px. */
 const ARROW = 46;
@@ -106,6 +109,23 @@ function largestOf(answer: Answer): Largest {
   largest.set(answer, found);
   return found;
 }
+
+/** Coefficients of static and kinetic friction on the block towards −x and +x; none where a law has no one value. */
+function limitsOf({ inputs }: State): { still?: readonly [number, number]; kinetic?: readonly [number, number] } {
+  const value = (path: string) => inputs.find((input) => input.path === path)?.value ?? undefined;
+  const turn = value("slider.asymmetry") ?? 0;
+  // Friction against sliding towards +x pulls towards −x.
+  const of = (kind: string): readonly [number, number] | undefined => {
+    const both = value(`slider.${kind}_friction`);
+    if (both !== undefined) return [both * (1 + turn), both * (1 - turn)];
+    const [positive, negative] = [value(`slider.${kind}_friction.positive`), value(`slider.${kind}_friction.negative`)];
+    return positive !== undefined && negative !== undefined ? [positive, negative] : undefined;
+  };
+  return { still: of("static"), kinetic: of("kinetic") };
+}
+
+/** A ratio with three digits. */
+const shortly = (ratio: number) => String(Number(ratio.toPrecision(3)));
 
 /** Sizes of a building in m: what the model gives, and what it does not. */
 function sizes({ structure }: State): { heights: number[]; total: number; width: number; height: number } {
@@ -171,7 +191,7 @@ export class Scene {
     const swing = Math.max(largestOf(answer).storey, pinned ? largestOf(pinned).storey : 0);
     const room = Math.max(peak + swing, Math.min(structure.gap_m ?? 0, 2 * peak)) + shown.tablePeak;
     const above = this.magnified ? ABOVE + 14 : ABOVE;
-    const scale = Math.min((floorY - above) / (total + 1.6 * blockHeight), (0.92 * width) / (blockWidth + 2.2 * Math.min(room, 2 * blockWidth)));
+    const scale = Math.min((floorY - above) / (total + 1.6 * blockHeight), Math.max(0.55 * width, Math.min(0.92 * width, width - 2 * (ARROW + 18))) / (blockWidth + 2.2 * Math.min(room, 2 * blockWidth)));
     const [bw, bh] = [blockWidth * scale, blockHeight * scale];
     const wanted = Math.min((0.16 * width) / (peak * scale), (0.47 * width - bw / 2) / ((peak + swing) * scale));
     this.factor = this.magnified ? Math.max(1, floored(wanted)) : 1;
@@ -223,6 +243,7 @@ export class Scene {
     }
 
     this.friction(frame, knot, blockX, bw, bh);
+    this.gauge(frame, knot, mode, width, height);
     this.scaleBar(c, width, k, units.length, seen);
     this.words(frame, s, mode);
   }
@@ -437,8 +458,51 @@ export class Scene {
     c.lineTo(to - sign * 9, y - 5);
     c.lineTo(to - sign * 9, y + 5);
     c.fill();
-    this.label(c, "friction", from, y - 8, sign > 0 ? "left" : "right", this.colours.slide);
+    // The word is whole, at the edge of the picture too.
+    const room = box(this.canvas)[0] - WORD;
+    this.label(c, "friction", sign > 0 ? Math.min(from, room) : Math.max(from, WORD), y - 8, sign > 0 ? "left" : "right", this.colours.slide);
     this.part("Friction", "The force of friction on the block. It holds the block while it sticks, and acts against its motion while it slides. The arrow is longest where the force is largest in this motion.", Math.min(from, to), y - 20, Math.abs(to - from), 26);
+  }
+
+  /** The force of friction over the weight, between what static friction can give; where it comes to that, the block slides, and friction falls to its kinetic level. */
+  private gauge({ c, answer }: Frame, knot: number, mode: number, width: number, height: number): void {
+    const { still, kinetic } = limitsOf(answer.state);
+    const weight = answer.state.structure.weight_n;
+    if (!still || !(weight > 0)) return;
+    const colour = this.colours;
+    const plane = answer.sy.length > 0;
+    const along = -(answer.friction[knot] ?? 0) / weight;
+    const used = plane ? Math.hypot(along, (answer.frictionY[knot] ?? 0) / weight) : along;
+    const most = Math.max(...still, ...(kinetic ?? []), Math.abs(used)) * 1.08;
+    const half = Math.min(170, 0.36 * width);
+    const [middle, y] = [width / 2, height - 12];
+    const x = (ratio: number) => middle + (ratio / most) * half;
+    c.fillStyle = colour.panel!;
+    c.strokeStyle = colour.line!;
+    c.lineWidth = 1;
+    c.fillRect(middle - half - 6, y - 7, 2 * half + 12, 14);
+    c.strokeRect(middle - half - 6, y - 7, 2 * half + 12, 14);
+    // From nothing to what is used.
+    c.fillStyle = mode === 0 ? colour.stick! : colour.slide!;
+    c.fillRect(Math.min(middle, x(used)), y - 4, Math.abs(x(used) - middle), 8);
+    const mark = (ratio: number, size: number, stroke: string, lineWidth: number) => {
+      c.strokeStyle = stroke;
+      c.lineWidth = lineWidth;
+      c.beginPath();
+      c.moveTo(x(ratio), y - size);
+      c.lineTo(x(ratio), y + size);
+      c.stroke();
+    };
+    mark(0, 4, colour.quiet!, 1);
+    for (const [ratios, size, stroke, wide] of [[kinetic, 5, colour.slide!, 1.5], [still, 8, colour.ink!, 2.5]] as const) {
+      if (!ratios) continue;
+      mark(plane ? ratios[0] : -ratios[0], size, stroke, wide);
+      mark(ratios[1], size, stroke, wide);
+    }
+    const level = (word: string, [a, b]: readonly [number, number]) => `${word} ${plane || a === b ? `${plane ? "" : "± "}${shortly(b)}` : `−${shortly(a)}, +${shortly(b)}`}`;
+    const words = ["friction over weight", level("static", still), ...(kinetic ? [level("kinetic", kinetic)] : [])];
+    this.label(c, words.join(" · "), middle, y - 12, "center");
+    this.part("Friction over weight", "The bar is the force of friction on the block, over its weight. The long marks are static friction: up to there the block sticks. Where the bar comes to one, the block slides, and friction has the kinetic level, at the short marks.", middle - half - 6, y - 24, 2 * half + 12, 32);
   }
 
   private spring(c: CanvasRenderingContext2D, from: number, to: number, y: number): void {

@@ -36,6 +36,8 @@ export class Stage {
   private pinned: Answer | undefined;
   private readonly legend: Legend;
   private drawnAt = 0;
+  /** The next answer is shown from its start. */
+  private begins = false;
   private writtenAt = 0;
   private readonly scene: Scene;
   private readonly plan: Plan;
@@ -104,6 +106,13 @@ export class Stage {
     this.stale = true;
   }
 
+  /** Shows what comes next from its start, all of it. */
+  begin(): void {
+    this.begins = true;
+    this.seek(0);
+    this.clock.zoom(null);
+  }
+
   stopAt(time: number): void {
     this.play(false);
     this.seek(time);
@@ -111,10 +120,12 @@ export class Stage {
 
   /** Takes what is to move. The first picture is a telling one: it starts before the peak, or stands at it. */
   take(shown: Shown): void {
-    if (!this.shown) {
+    if (this.begins) this.time = 0;
+    else if (!this.shown) {
       const peak = shown.answer.state.headline.peakTime_s;
       this.time = this.playing ? Math.max(0, peak - 4) : peak;
     }
+    this.begins = false;
     this.shown = shown;
     this.planCanvas.hidden = shown.answer.sy.length === 0;
   }

@@ -20,6 +20,11 @@ export class Steps {
     this.at = this.texts.length - 1;
   }
 
+  /** Whether a text is another than that of the state at which the page came to rest last. */
+  changed(text: string, set: number): boolean {
+    return this.at >= 0 && (set > 0 || text !== this.texts[this.at]);
+  }
+
   get canUndo(): boolean {
     return this.at > 0;
   }
@@ -28,8 +33,9 @@ export class Steps {
     return this.at < this.texts.length - 1;
   }
 
-  /** The state so many steps on, or back. */
-  go(steps: number): string | undefined {
+  /** The state so many steps on, or back; what has changed since the last one is undone first. */
+  go(steps: number, changed: boolean): string | undefined {
+    if (changed) return steps < 0 ? this.texts[this.at] : undefined;
     const text = this.texts[this.at + steps];
     if (text !== undefined) this.at += steps;
     return text;

@@ -66,21 +66,24 @@ export class StudyTab implements Tab {
   }
 
   async run(): Promise<void> {
-    const state = this.page.state();
-    if (!state || this.running) return;
+    if (this.running) return;
     this.running = true;
     this.progress.begin();
     this.go.disabled = true;
     this.text.removeAttribute("aria-invalid");
-    const asked = this.subject;
     try {
+      // Of what is wanted, with what was set on it in its text.
+      await this.page.desk.rested();
+      const asked = this.subject;
       const names = this.page.records().map((record) => record.name);
+      // As they are now.
+      const files = new Map(this.page.desk.records);
       const of: [string, string, string[]] = [this.text.value, this.page.text(), names];
       const sheet = await this.pool.call("study", ...of, await this.rows(...of), this.page.display());
       const runs = new Explorer(sheet.runs, this.id, this.page.dark, "a click shows the run by itself", (_, row) => void this.take(of, row), [/^level$/, /^peak_sliding_displacement_m$/]);
       const { element, views } = sheetElement(sheet, this.page.dark);
       this.views = [...views, runs];
-      this.result.show(asked, element, h("div", { class: "card pad" }, runs.element), h("div", { class: "actions" }, h("button", { type: "button", onclick: () => this.everything(of, sheet) }, "Everything (ZIP)"), h("button", { type: "button", onclick: () => download("study-report.html", sheet.html, "text/html") }, "report.html")));
+      this.result.show(asked, element, h("div", { class: "card pad" }, runs.element), h("div", { class: "actions" }, h("button", { type: "button", onclick: () => this.everything(of, sheet, files) }, "Everything (ZIP)"), h("button", { type: "button", onclick: () => download("study-report.html", sheet.html, "text/html") }, "report.html")));
       this.update();
       this.page.say(`The study is done. ${sheet.verdict[0] ?? sheet.line}`);
     } catch (error) {
@@ -100,12 +103,11 @@ export class StudyTab implements Tab {
     }
   }
 
-  /** The plan with its model by the name that the plan calls it, and the records on the page. */
-  private everything([plan, text, names]: [plan: string, text: string, names: string[]], sheet: Sheet): void {
+  /** The plan with its model by the name that the plan calls it, and its records where it looks for them. */
+  private everything([plan, text]: [plan: string, text: string, names: string[]], sheet: Sheet, files: Map<string, Uint8Array>): void {
     const model = /^\s*model\s*=\s*"([^"]*)"/m.exec(plan)?.[1] ?? "model.toml";
-    const patterns = /^\s*\[records\]/m.test(plan);
-    const records = patterns ? names.flatMap((name): [string, Uint8Array][] => [[name.replace(/^.*\//, ""), this.page.desk.records.get(name) ?? new Uint8Array()]]) : [];
-    hand("study.zip", sheet.commands, [model, text], this.page.desk.records, { "plan.toml": plan, ...Object.fromEntries(records) }, { "report.html": sheet.html });
+    const records = sheet.records.map(({ path, file }) => [path, files.get(file) ?? new Uint8Array()]);
+    hand("study.zip", sheet.commands, [model, text], files, { "plan.toml": plan, ...Object.fromEntries(records) }, { "report.html": sheet.html }, "page/command.txt");
   }
 
   private async take(of: [plan: string, text: string, names: string[]], run: number): Promise<void> {

@@ -52,6 +52,8 @@ export class SuiteTab implements Tab {
   private readonly go = h("button", { type: "submit", class: "main", disabled: true }, "Run");
   private helper: Helper | undefined;
   private opened = false;
+  /** The field whose value cannot be, and what says so. */
+  private wrong: [Entry, HTMLElement] | undefined;
 
   constructor(
     private readonly page: Page,
@@ -109,6 +111,8 @@ export class SuiteTab implements Tab {
   }
 
   settings(): Record<string, string> {
+    // What an address says stands until there is a form.
+    if (this.fields.length === 0) return this.wanted;
     const left = this.bench.without();
     const fields = this.fields.flatMap(([{ name, start }, input]) => (valueOf(input) === start ? [] : [[name, valueOf(input)]]));
     return { ...Object.fromEntries(fields), ...(left.length > 0 ? { "without records": left.join("\n") } : {}) };
@@ -161,16 +165,18 @@ export class SuiteTab implements Tab {
   }
 
   private async run(): Promise<void> {
-    const state = this.page.state();
-    if (!state || this.helper) return;
+    if (this.helper) return;
     const helper = new Helper(this.page.desk.engine, this.page.desk.records);
     this.helper = helper;
+    this.right();
     helper.onprogress = (done, planned) => this.progress.show(done, planned);
     this.progress.begin();
     this.go.disabled = true;
-    const of = this.subject;
     try {
-      const text = this.page.text();
+      // Of what is wanted, with what was set on it in its text.
+      await this.page.desk.rested();
+      const [state, of, text] = [this.page.state(), this.subject, this.page.text()];
+      if (!state) return;
       const sheet = await helper.call("assess", this.id, text, this.options(), this.page.display());
       this.show(of, text, state, sheet);
       this.page.say(`${this.label} is done. ${sheet.verdict[0] ?? sheet.line}`);
@@ -252,7 +258,27 @@ export class SuiteTab implements Tab {
     }
   }
 
+  /** Says what is wrong, at the field that it is of where the message begins with its label. */
   private refuse({ fault }: ModuleError): void {
-    this.result.show(undefined, h("p", { class: "card pad fault", role: "alert" }, fault.message));
+    const said = h("p", { class: "fault", role: "alert" }, fault.message);
+    const of = this.fields.find(([{ label }]) => fault.message.startsWith(`${label}: `))?.[1];
+    if (!of) {
+      said.classList.add("card", "pad");
+      this.result.show(undefined, said);
+      return;
+    }
+    of.setAttribute("aria-invalid", "true");
+    of.closest("details")?.setAttribute("open", "");
+    this.wrong = [of, said];
+    of.closest(".field")?.after(said);
+    said.scrollIntoView({ block: "nearest" });
+  }
+
+  private right(): void {
+    if (!this.wrong) return;
+    const [of, said] = this.wrong;
+    of.removeAttribute("aria-invalid");
+    said.remove();
+    this.wrong = undefined;
   }
 }

@@ -102,9 +102,13 @@ export class SweepTab implements Tab {
   }
 
   async run(): Promise<void> {
+    if (this.running) return;
+    this.running = true;
+    // Of what is wanted, with what was set on it in its text.
+    await this.page.desk.rested().finally(() => (this.running = false));
     const state = this.page.state();
     const input = this.input();
-    if (!state || !input || this.running) return;
+    if (!state || !input) return;
     const count = Number(this.count.value);
     if (!(Number.isInteger(count) && count >= 2 && count <= 100_000)) {
       fill(this.charts, h("p", { class: "card pad fault", role: "alert" }, `Number of runs: expected 2 to 100000, found "${this.count.value}"`));
@@ -130,7 +134,7 @@ export class SweepTab implements Tab {
       this.result.show(this.of, this.charts);
       this.update();
       this.show(rows, state, input.symbol ?? "", input.in_si ?? 1, input.value ?? 0, input.path);
-      this.page.say(`The sweep of ${input.path} is done: ${count} runs.`);
+      this.page.say(`The sweep of ${labelOf(input.path)} is done: ${count} runs.`);
     } catch (error) {
       this.pool.stop();
       this.of = "";

@@ -57,10 +57,12 @@ export function identity(bytes: Uint8Array): number {
   return number;
 }
 
-/** What a result is of, as text: the model, the bytes of the records, what was asked. */
-export function subject({ desk, text }: Pick<Page, "desk" | "text">, asked: unknown): string {
-  const records = [...desk.records].map(([name, bytes]) => [name, identity(bytes)]);
-  return JSON.stringify([text(), records, asked]);
+/** The files of the page, as they are told apart. */
+export const filesOf = ({ records }: Desk) => [...records].map(([name, bytes]) => [name, identity(bytes)]);
+
+/** What a result is of, as text: the model with the keys set on it, the bytes of the records, what was asked. */
+export function subject({ desk }: Pick<Page, "desk">, asked: unknown): string {
+  return JSON.stringify([desk.wanted.text, desk.wanted.set, filesOf(desk), asked]);
 }
 
 /** A result, greyed where it is no longer of what stands on the page. */

@@ -106,8 +106,6 @@ export interface Beside {
 }
 
 export interface Judgement {
-  /** The model's text with the keys set. */
-  text: string;
   rows: Row[];
   runs: string[];
   warnings: Warning[];
@@ -258,6 +256,8 @@ export interface Inspected {
   layout: string;
   /** It needs no more to be a motion. */
   plain: boolean;
+  /** That motion is vertical. */
+  upright: boolean;
   channels: {
     name: string;
     quantity: string;
@@ -278,14 +278,18 @@ export interface Fault {
   end?: number;
   /** The module is gone; its worker has to be replaced. */
   fatal?: boolean;
+  /** The path of a file that the model names and that is not here. */
+  missing?: string;
 }
 
 export type Setting = [path: string, value: string];
 
-/** An answer that is judged where no newer one is asked for in time. */
-export interface Rest {
-  after_ms: number;
+/** A model as it is wanted: its text and the keys set on it since, how it is shown, and whether the stepwise method stands beside it. Each change is another, under the next number. */
+export interface Revision {
   number: number;
+  text: string;
+  set: Setting[];
+  display: Display;
   stepwise: boolean;
 }
 
@@ -294,9 +298,13 @@ export interface Calls {
   remove: (name: string) => void;
   hash: (bytes: Uint8Array) => string;
   inspect: (name: string, units: string, dt: string) => Inspected;
-  analyse: (text: string, set: Setting[], display: Display, rest?: Rest) => Answer;
-  judge: (stepwise: boolean) => Judgement;
-  file: (name: string, text: string, command: string) => string;
+  /** With a time in ms the answer is judged where no newer one is asked for in it. */
+  analyse: (of: Revision, restMs?: number) => Answer;
+  judge: (of: Revision) => Judgement;
+  /** Judges it once what is asked before is done; what is found comes as what is judged at rest. */
+  check: (of: Revision) => void;
+  /** Files of the names, all made of one judged answer, and its model's text. */
+  files: (of: Revision, names: string[], command: string) => { text: string; files: string[] };
   sweep: (text: string, over: string, from: number, to: number) => Float64Array;
   plan: (what: string, text: string, options: Setting[]) => string;
   form: (what: string, text: string, display: Display) => { about: string; fields: FormField[]; demands: Choice[] };
@@ -324,7 +332,7 @@ export type Reply =
   | { id: number; result: unknown }
   | { id: number; fault: Fault }
   | { progress: [done: number, planned: number] }
-  | { judging: number }
+  | { judging: number; text: string }
   | { judged: number; judgement: Judgement }
   | { judged: number; fault: Fault }
   | { ready: string };

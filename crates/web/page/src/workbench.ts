@@ -43,7 +43,9 @@ export class Workbench {
       this.draw();
       this.onchoice();
     });
-    const heads = ["Record", "PGA", "PGV"].map((text, i) => h("th", { scope: "col", class: i > 0 ? "number" : "" }, text));
+    const head = (text: string, number: boolean) => h("th", { scope: "col", class: number ? "number" : "" }, text);
+    // What is done to a record and what was noticed of it come first: the rest may need scrolling.
+    const heads = [head("Record", false), head("Factor", true), head("Notices", true), head("PGA", true), head("PGV", true)];
     this.element = h(
       "fieldset",
       { class: "group workbench" },
@@ -52,7 +54,7 @@ export class Workbench {
       h(
         "div",
         { class: "table-scroll", tabindex: 0, role: "region", "aria-label": "Records" },
-        h("table", {}, h("thead", {}, h("tr", {}, h("th", { scope: "col" }, this.all), ...heads, this.saHead, h("th", { scope: "col", class: "number" }, "Factor"), h("th", { scope: "col" }, "Notices"))), this.body),
+        h("table", {}, h("thead", {}, h("tr", {}, h("th", { scope: "col" }, this.all), ...heads, this.saHead)), this.body),
       ),
     );
   }
@@ -138,15 +140,16 @@ export class Workbench {
           this.onchoice();
         });
         const found = this.known.get(this.key(name));
-        const cells = typeof found === "string" || !found ? ["", "", "", ""] : [shown(found.pga), shown(found.pgv), found.measure ? shown(found.measure) : "–", this.factor(found)];
+        const cells = typeof found === "string" || !found ? ["", "", "", ""] : [this.factor(found), shown(found.pga), shown(found.pgv), found.measure ? shown(found.measure) : "–"];
         const told = typeof found === "string" ? [found] : (found?.notices ?? []);
         return h(
           "tr",
           {},
           h("td", {}, h("label", { class: "switch" }, box, h("span", { class: "hidden" }, label))),
           h("th", { scope: "row" }, label),
-          ...cells.map((text) => h("td", { class: "number" }, text)),
-          h("td", {}, told.length > 0 ? h("details", {}, h("summary", {}, String(told.length)), ...told.map((text) => h("p", {}, text))) : ""),
+          h("td", { class: "number" }, cells[0]!),
+          h("td", { class: "told" }, told.length > 0 ? h("details", {}, h("summary", {}, String(told.length)), ...told.map((text) => h("p", {}, text))) : ""),
+          ...cells.slice(1).map((text) => h("td", { class: "number" }, text)),
         );
       }),
     );

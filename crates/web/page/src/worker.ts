@@ -2,7 +2,7 @@
 
 import { initSync, type Page, Session, sha256, version } from "../pkg/slipstick_web.js";
 import { answered, withTable } from "./answers";
-import type { Answer, Calls, Fault, Judgement, Op, Reply, Request, Rest, Sheet } from "./types";
+import type { Answer, Calls, Fault, Judgement, Op, Reply, Request, Revision, Sheet } from "./types";
 
 const scope = globalThis as unknown as DedicatedWorkerGlobalScope & {
   slipstickProgress: (done: number, planned: number) => void;
@@ -32,49 +32,91 @@ function sheet(page: Page): Sheet {
 
 let resting: ReturnType<typeof setTimeout> | undefined;
 
-/** Judges the last answer, which nothing newer has followed. */
-function judgeAtRest({ number, stepwise }: Rest) {
-  say({ judging: number });
+/** The revision that the session's last answer is of, by its number, and whether that is judged. */
+let held: number | undefined;
+let judged = false;
+
+/** The answer of a revision; the session holds it then. */
+function answerOf({ number, text, set, display }: Revision): Answer {
+  const answer = answered(session, text, set, display);
+  [held, judged] = [number, false];
+  return answer;
+}
+
+/** Whatever is asked of an answer is asked of that revision: another one is analysed again. */
+function hold(of: Revision): void {
+  if (held !== of.number) answerOf(of);
+}
+
+function judge(of: Revision): Judgement {
+  hold(of);
+  const found = session.judge(of.stepwise);
+  judged = true;
+  const beside = (number: number) => {
+    const [time, s] = [found.beside(2 * number), found.beside(2 * number + 1)];
+    return time.length > 0 ? { time: time as Float64Array, s: s as Float64Array } : undefined;
+  };
+  const result: Judgement = {
+    ...JSON.parse(found.state()),
+    energy: [0, 1, 2, 3, 4].map((kind) => found.energy(kind) as Float64Array),
+    lower: beside(0),
+    upper: beside(1),
+    steps: beside(2),
+  };
+  found.free();
+  return result;
+}
+
+/** Judges an answer that nothing newer has followed; what its text says then is told before. */
+function judgeAtRest(of: Revision): void {
+  const { number } = of;
   try {
-    const judgement = calls.judge(stepwise);
+    hold(of);
+    say({ judging: number, text: session.text() });
+    const judgement = judge(of);
     say({ judged: number, judgement }, buffers(judgement));
   } catch (error) {
     say({ judged: number, fault: fault(error) });
   }
 }
 
+/** What was made of other bytes is not held any more. */
+function changed(): void {
+  held = undefined;
+}
+
 const calls: Calls = {
-  add: (name, bytes) => session.addRecord(name, bytes),
-  remove: (name) => session.removeRecord(name),
+  add(name, bytes) {
+    session.addRecord(name, bytes);
+    changed();
+  },
+  remove(name) {
+    session.removeRecord(name);
+    changed();
+  },
   hash: (bytes) => sha256(bytes),
   inspect: (name, units, dt) => JSON.parse(session.inspect(name, units, dt)),
-  analyse(text, set, display, rest): Answer {
+  analyse(of, restMs): Answer {
     clearTimeout(resting);
-    let result = answered(session, text, set, display);
+    let result = answerOf(of);
     if (result.ground !== lastGround) {
       lastGround = result.ground;
       result = withTable(session, result);
     }
-    if (rest && "judge" in session) resting = setTimeout(() => judgeAtRest(rest), rest.after_ms);
+    if (restMs !== undefined && "judge" in session) resting = setTimeout(() => judgeAtRest(of), restMs);
     return result;
   },
-  judge(stepwise): Judgement {
-    const judged = session.judge(stepwise);
-    const beside = (number: number) => {
-      const [time, s] = [judged.beside(2 * number), judged.beside(2 * number + 1)];
-      return time.length > 0 ? { time: time as Float64Array, s: s as Float64Array } : undefined;
-    };
-    const result: Judgement = {
-      ...JSON.parse(judged.state()),
-      energy: [0, 1, 2, 3, 4].map((kind) => judged.energy(kind) as Float64Array),
-      lower: beside(0),
-      upper: beside(1),
-      steps: beside(2),
-    };
-    judged.free();
-    return result;
+  judge,
+  check(of) {
+    clearTimeout(resting);
+    resting = setTimeout(() => judgeAtRest(of));
   },
-  file: (name, text, command) => session.file(name, text, command),
+  files(of, names, command) {
+    hold(of);
+    if (!judged) judge(of);
+    const text = of.set.length > 0 ? session.text() : of.text;
+    return { text, files: names.map((name) => session.file(name, text, command)) };
+  },
   sweep: (text, over, from, to) => session.sweep(text, over, from, to) as Float64Array,
   plan: (what, text, options) => session.plan(what, text, flat(options)),
   form: (what, text, display) => JSON.parse(session.form(what, text, display)),

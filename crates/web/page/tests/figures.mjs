@@ -23,15 +23,19 @@ async function got(page, button) {
 }
 
 export function figures(test, on) {
-  for (const colorScheme of ["light", "dark"]) {
-    test(`every figure of every tab tells values, zooms, and leaves as CSV, SVG and PNG, ${colorScheme}`, () =>
-      on(
-        async (page) => {
-          for (const id of TABS) {
-            const panel = await shown(page, id);
-            assert.equal(await panel.locator("img").count(), 0, `${id}: a figure that is an image`);
-            const count = await panel.locator(".figure").count();
-            assert.ok(count > 0, id);
+  test("every figure of every tab tells values, zooms, and leaves as CSV, SVG and PNG, on a light and a dark ground", () =>
+    on(
+      async (page) => {
+        for (const id of TABS) {
+          const panel = await shown(page, id);
+          assert.equal(await panel.locator("img").count(), 0, `${id}: a figure that is an image`);
+          const count = await panel.locator(".figure").count();
+          assert.ok(count > 0, id);
+          for (const colorScheme of ["dark", "light"]) {
+            await page.emulateMedia({ colorScheme });
+            // They are drawn anew once the page hears of it.
+            const inked = ([id, light]) => [...document.querySelectorAll(`#panel-${id} .figure-plot svg[role]`)].every((svg) => (svg.getAttribute("fill") === "#1a1a1a") === light);
+            await page.waitForFunction(inked, [id, colorScheme === "light"]);
             for (let i = 0; i < count; i++) {
               const figure = panel.locator(".figure").nth(i);
               const svg = figure.locator(".figure-plot svg[role]");
@@ -53,20 +57,26 @@ export function figures(test, on) {
               assert.notDeepEqual(await ticks(), before, `${id}, figure ${i}: zoomed`);
               await figure.getByRole("button", { name: "Whole" }).click();
               assert.deepEqual(await ticks(), before, `${id}, figure ${i}: whole again`);
-              const [csvName, csv] = await got(page, figure.getByRole("button", { name: "CSV", exact: true }));
-              assert.match(csvName, /\.csv$/);
-              assert.ok(csv.toString().split("\n").length > 3, `${id}, figure ${i}: ${csv}`);
-              const [, drawn] = await got(page, figure.getByRole("button", { name: "SVG", exact: true }));
-              assert.match(drawn.toString(), /^<svg[^>]*viewBox="0 0 860 \d+"[^]*fill="#ffffff"/);
-              const [, png] = await got(page, figure.getByRole("button", { name: "PNG", exact: true }));
-              assert.equal(png.readUInt32BE(0), 0x89504e47);
-              assert.equal(png.readUInt32BE(16), 3 * 860);
             }
           }
-        },
-        { acceptDownloads: true, colorScheme },
-      ));
-  }
+          // In the colours of print, whatever the ground.
+          await page.emulateMedia({ colorScheme: "dark" });
+          await page.waitForFunction((id) => [...document.querySelectorAll(`#panel-${id} .figure-plot svg[role]`)].every((svg) => svg.getAttribute("fill") !== "#1a1a1a"), id);
+          for (let i = 0; i < count; i++) {
+            const figure = panel.locator(".figure").nth(i);
+            const [csvName, csv] = await got(page, figure.getByRole("button", { name: "CSV", exact: true }));
+            assert.match(csvName, /\.csv$/);
+            assert.ok(csv.toString().split("\n").length > 3, `${id}, figure ${i}: ${csv}`);
+            const [, drawn] = await got(page, figure.getByRole("button", { name: "SVG", exact: true }));
+            assert.match(drawn.toString(), /^<svg[^>]*viewBox="0 0 860 \d+"[^]*fill="#ffffff"/);
+            const [, png] = await got(page, figure.getByRole("button", { name: "PNG", exact: true }));
+            assert.equal(png.readUInt32BE(0), 0x89504e47);
+            assert.equal(png.readUInt32BE(16), 3 * 860);
+          }
+        }
+      },
+      { acceptDownloads: true },
+    ));
 
   test("a figure follows the theme, and is drawn to the width that there is", () =>
     on(async (page) => {

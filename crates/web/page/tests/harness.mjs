@@ -1,9 +1,11 @@
 // A browser, a static host that remembers what was asked of it, and pages on it.
 
+import { execFile } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { createServer } from "node:http";
 import { tmpdir } from "node:os";
 import { extname, join } from "node:path";
+import { promisify } from "node:util";
 import { gzipSync } from "node:zlib";
 import { chromium } from "playwright-core";
 
@@ -74,17 +76,37 @@ export async function open(browser, url, options = {}) {
   return { page, context, said, outside, close: () => context.close() };
 }
 
-/** Waits until what is shown is judged. */
-export function settled(page, timeout = 60_000) {
-  return page.waitForFunction(
-    () => {
-      const app = globalThis.slipstick;
-      const helper = app?.desk.helper;
-      return app?.updates > 0 && helper.idle && app.pending.length === 0 && app.judgement && app.drawn;
-    },
-    null,
-    { timeout },
-  );
+/** Whether a page is at rest; `tell`: what of it does not hold. `any`: where what is wanted has no answer, too. */
+export const rest = ([tell, any]) => {
+  const app = globalThis.slipstick;
+  const holds = {
+    "it has drawn an answer": app?.updates > 0,
+    "its worker is idle": app?.desk.helper.idle,
+    "nothing that is wanted is on its way": app?.desk.rests,
+    "what is wanted is judged": any || (app?.judgement !== undefined && !app.desk.refused),
+    "all that it knows is drawn": app?.drawn,
+  };
+  const left = Object.keys(holds).filter((what) => !holds[what]);
+  return tell ? left : left.length === 0;
+};
+
+/** Waits until what is shown is judged. It asks by a clock: a page that draws no frames would not be asked by them. */
+export async function settled(page, timeout = 60_000) {
+  try {
+    await page.waitForFunction(rest, [false, false], { timeout, polling: 50 });
+  } catch (error) {
+    if (error.name !== "TimeoutError") throw error;
+    const left = await page.evaluate(rest, [true, false]).catch((silent) => [`it answers (${silent.message})`]);
+    const said = await page.locator(".note-bar:visible").allInnerTexts().catch(() => []);
+    throw new Error(`the page is not at rest after ${timeout / 1000} s: it does not hold that ${left.join(", that ") || "it was at rest in time"}; it says ${JSON.stringify(said)}`, { cause: error });
+  }
+}
+
+const executed = promisify(execFile);
+
+/** What a program prints. It is waited for without standing still: the host of the pages is in this process. */
+export async function ran(program, words, options = {}) {
+  return (await executed(program, words, { maxBuffer: 1e8, ...options })).stdout;
 }
 
 /** Drops files, `[name, bytes or text]`, on the page. */

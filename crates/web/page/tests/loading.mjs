@@ -38,7 +38,7 @@ export function loading(test, on, site) {
         const { s, time, storeyDisplacement } = globalThis.slipstick.answer;
         return [s.length, time.length, storeyDisplacement.length, Math.max(...s.map(Math.abs))];
       });
-      await page.evaluate(() => globalThis.slipstick.set([["slider.kinetic_friction", "0.03"]]));
+      await page.evaluate(() => globalThis.slipstick.desk.set([["slider.kinetic_friction", "0.03"]]));
       give();
       await settled(page);
       assert.notDeepEqual(await headline(page), live);
@@ -67,7 +67,7 @@ export function loading(test, on, site) {
       assert.match(await page.locator(".results .certificate").innerText(), /^Loading\s+Not yet checked/);
       assert.deepEqual(await page.evaluate(() => [...globalThis.slipstick.answer.s]), whole, "the bits of the whole module");
       const peak = await headline(page);
-      await page.evaluate(() => globalThis.slipstick.set([["slider.kinetic_friction", "0.03"]]));
+      await page.evaluate(() => globalThis.slipstick.desk.set([["slider.kinetic_friction", "0.03"]]));
       await page.waitForFunction((peak) => document.querySelector(".headline dd").innerText !== peak, peak[0]);
       await page.locator("#tab-suite").click();
       assert.match(await page.locator("#panel-suite").innerText(), /Loading/);
@@ -86,7 +86,7 @@ export function loading(test, on, site) {
       const message = await page.evaluate(() => globalThis.slipstick.desk.helper.call("form", "ida", globalThis.slipstick.text, "si").catch((error) => error.message));
       assert.match(message, /expected the rest of the page/);
       await page.unroute(/slipstick\.wasm$/);
-      await page.evaluate(() => globalThis.slipstick.set([["slider.kinetic_friction", "0.04"]]));
+      await page.evaluate(() => globalThis.slipstick.desk.set([["slider.kinetic_friction", "0.04"]]));
       await settled(page);
       // The browser says itself what did not come.
       said.splice(0, said.length, ...said.filter((text) => !/ERR_FAILED|Failed to load/.test(text)));

@@ -1,7 +1,6 @@
 // The page as a person uses it: `node tests/page.mjs FOLDER [NAME]`. The last line counts.
 
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
 import { mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join, resolve } from "node:path";
@@ -12,10 +11,11 @@ import { figures } from "./figures.mjs";
 import { field, setField, slider } from "./fields.mjs";
 import { minute } from "./minute.mjs";
 import { scenes } from "./scenes.mjs";
-import { browser, drop, headline, host, message, open, settled, temporary } from "./harness.mjs";
+import { browser, drop, headline, host, message, open, ran, settled, temporary } from "./harness.mjs";
 import { loading } from "./loading.mjs";
 import { report } from "./report.mjs";
 import { runs } from "./runs.mjs";
+import { state } from "./state.mjs";
 import { whole } from "./whole.mjs";
 
 const folder = resolve(process.argv[2]);
@@ -26,6 +26,12 @@ const site = await host(folder);
 let chromium = await browser();
 const shots = join(folder, "../web-pictures");
 mkdirSync(shots, { recursive: true });
+
+/** Tests whose times are told at the end. */
+const SLOWEST = 12;
+
+/** The longest that a test may take, in s; as many sequences as are asked for take their time. */
+const LONGEST_S = process.env.SLIPSTICK_SEQUENCES ? 40_000 : 240;
 
 const tests = [];
 const test = (name, run) => tests.push([name, run]);
@@ -128,12 +134,12 @@ test("history, summary and events are those of the command, digit by digit", () 
     try {
       for (const name of ["taft", "el-centro", "frame-pendulum"]) {
         const model = join(root, "examples", `${name}.toml`);
-        execFileSync(command, ["run", model, "-q", "--out", out.folder], { stdio: ["ignore", "ignore", "inherit"] });
+        await ran(command, ["run", model, "-q", "--out", out.folder]);
         await drop(page, [`${name}.toml`, readFileSync(model)]);
         await page.evaluate(() => globalThis.dropped);
         await settled(page);
         for (const file of ["history.csv", "events.csv", "summary.json"]) {
-          const here = await page.evaluate((file) => globalThis.slipstick.desk.helper.call("file", file, globalThis.slipstick.text, ""), file);
+          const here = await page.evaluate((file) => globalThis.slipstick.desk.files([file], () => "").then(({ files }) => files[0]), file);
           const there = readFileSync(join(out.folder, file), "utf8");
           assert.ok(here === there, `${name}: ${file} differs from the command's`);
         }
@@ -150,12 +156,13 @@ test("every format that is read can be dropped", () =>
     for (const name of readdirSync(records).filter((name) => name !== "README.md")) {
       await drop(page, [name, readFileSync(join(records, name))]);
       const dialog = page.locator("dialog");
-      const ended = async () => {
-        const over = () => page.evaluate(() => Promise.race([globalThis.dropped.then(() => true), new Promise((done) => setTimeout(done, 400))]));
-        // It asks, or it is done.
-        while (!(await over())) if (await dialog.isVisible()) return false;
-        return true;
-      };
+      await page.evaluate(() => {
+        const { dropped } = globalThis;
+        globalThis.over = false;
+        void dropped.then(() => (globalThis.over = globalThis.dropped === dropped));
+      });
+      // It asks, or it is done.
+      const ended = () => page.waitForFunction(() => (globalThis.over ? "over" : document.querySelector("dialog[open]") && !document.querySelector("dialog[aria-busy]") ? "asks" : undefined), null, { polling: 20 }).then((said) => said.jsonValue()).then((said) => said === "over");
       for (let round = 0; round < 4 && !(await ended()); round++) {
         const units = dialog.locator("input[name=units]");
         if (await units.isVisible()) await units.fill(/counts/.test(await dialog.innerText()) ? "1e-5 m/s2" : "g");
@@ -228,7 +235,10 @@ test("a plan of pairs with vertical motions runs", () =>
       await drop(page, ...files);
       await page.evaluate(() => globalThis.dropped);
     };
-    await dropped(["h1.csv", csv((t) => 2 * Math.sin(6 * t))], ["h2.csv", csv((t) => 3 * Math.sin(5 * t))], ["up.csv", csv((t) => Math.sin(9 * t))]);
+    await drop(page, ["h1.csv", csv((t) => 2 * Math.sin(6 * t))], ["h2.csv", csv((t) => 3 * Math.sin(5 * t))], ["up.csv", csv((t) => Math.sin(9 * t))]);
+    // By its name one of them is vertical.
+    await page.locator("dialog").getByRole("button", { name: "Keep it beside" }).click();
+    await page.evaluate(() => globalThis.dropped);
     const plan = (up) => `model = "m.toml"\n[records]\nfiles = ["h1.csv"]\nsecond = ["h2.csv"]\nvertical = [${up}]\nscale = [1.0, 2.0]\n`;
     await dropped(["plan.toml", plan('"up.csv", "up.csv"')]);
     await page.locator("#panel-study .fault").waitFor();
@@ -402,8 +412,8 @@ test("two components: the way of the block from above, turned by a slider, with 
     if (command) {
       const out = temporary();
       try {
-        execFileSync(command, ["run", join(root, "examples/taft-two-directions.toml"), "--set", "motion.rotate=45 deg", "-q", "--out", out.folder], { stdio: ["ignore", "ignore", "inherit"] });
-        const here = await page.evaluate(() => globalThis.slipstick.desk.helper.call("file", "history.csv", globalThis.slipstick.text, ""));
+        await ran(command, ["run", join(root, "examples/taft-two-directions.toml"), "--set", "motion.rotate=45 deg", "-q", "--out", out.folder]);
+        const here = await page.evaluate(() => globalThis.slipstick.desk.files(["history.csv"], () => "").then(({ files }) => files[0]));
         assert.ok(here === readFileSync(join(out.folder, "history.csv"), "utf8"), "history.csv differs from the command's");
       } finally {
         out.remove();
@@ -442,7 +452,7 @@ test("a ZIP has model and records, and the command makes the same bytes of them"
         writeFileSync(join(out.folder, name), bytes);
       }
       const [, ...words] = readFileSync(join(out.folder, "command.txt"), "utf8").trim().split(" ");
-      execFileSync(command, [...words, "-q"], { cwd: out.folder, stdio: ["ignore", "ignore", "inherit"] });
+      await ran(command, [...words, "-q"], { cwd: out.folder });
       for (const name of ["summary.json", "history.csv", "events.csv"]) {
         assert.equal(readFileSync(join(out.folder, "out", name), "utf8"), readFileSync(join(out.folder, "page", name), "utf8"), name);
       }
@@ -510,16 +520,89 @@ test("an address asks for a record of one's own, by name and hash", () =>
     const other = await context.newPage();
     await other.goto(page.url());
     await other.locator(".note-bar:not(.busy)").waitFor();
-    assert.match(await message(other), /motion\.record: expected the file of this record.*none named own\.AT2/);
+    assert.match(await message(other), /^This link needs the file own\.AT2: choose it, or drop it on the page\./);
     await drop(other, ["own.AT2", own.replace(/1/, "2")]);
     await other.evaluate(() => globalThis.dropped);
     assert.match(await message(other), /own\.AT2: expected the file of the address, with the SHA-256/);
-    await drop(other, ["own.AT2", own]);
+    // By its hash it is known under another name.
+    await drop(other, ["own (1).AT2", own]);
     await other.evaluate(() => globalThis.dropped);
     await settled(other);
     assert.deepEqual(await headline(other), shown);
     assert.equal(await other.locator("#model-text").inputValue(), await page.locator("#model-text").inputValue());
     await other.close();
+  }));
+
+test("a model asks for its record, which is chosen by a button and read as the model says", () =>
+  on(async (page) => {
+    const model = readFileSync(join(root, "examples/taft.toml"), "utf8").replace("records/taft-111.txt", "records/ARL360.at2").replace(/^scale_to.*$/m, 'scale_to = "0.2 g"');
+    await drop(page, ["model.toml", model]);
+    await page.evaluate(() => globalThis.dropped);
+    await page.getByRole("button", { name: "Choose ARL360.at2…" }).waitFor();
+    assert.match(await message(page), /^This model needs the file ARL360\.at2: choose it/);
+    assert.ok(await page.locator(".stage.behind").count(), "what is shown is of the model before");
+    const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.getByRole("button", { name: "Choose ARL360.at2…" }).click()]);
+    const numbers = readFileSync(join(root, "examples/records/taft-021.txt"));
+    await chooser.setFiles([{ name: "downloaded.txt", mimeType: "text/plain", buffer: numbers }]);
+    await settled(page);
+    assert.match(await page.locator("#model-text").inputValue(), /record\s*= "records\/ARL360\.at2"\n[^]*scale_to = "0\.2 g"/);
+    assert.equal(await page.locator(".behind").count(), 0);
+  }));
+
+test("a motion that is vertical alone is asked about; of several channels those of acceleration are offered, a horizontal one first", () =>
+  on(async (page) => {
+    const dialog = page.locator("dialog");
+    const text = await page.locator("#model-text").inputValue();
+    const dropped = async (name) => drop(page, [name, readFileSync(join(root, "data/records", name))]);
+    await dropped("kiknet.UD2");
+    await dialog.getByText("is vertical").waitFor();
+    await dialog.getByRole("button", { name: "Keep it beside" }).click();
+    await page.evaluate(() => globalThis.dropped);
+    assert.equal(await page.locator("#model-text").inputValue(), text, "the table moves as before");
+    assert.match(await page.locator(".records").innerText(), /kiknet\.UD2/);
+    await dropped("kiknet.UD2");
+    await dialog.getByRole("button", { name: "Use it" }).click();
+    await page.evaluate(() => globalThis.dropped);
+    await settled(page);
+    assert.match(await page.locator("#model-text").inputValue(), /record = "kiknet\.UD2"/);
+    await dropped("geonet.V2A");
+    await dialog.locator("select[name=channel]").waitFor();
+    const offered = await dialog.locator("select[name=channel] option").allTextContents();
+    assert.ok(offered.length > 0 && offered.every((one) => /acceleration/.test(one)), String(offered));
+    const chosen = await dialog.locator("select[name=channel]").evaluate((select) => select.selectedOptions[0].textContent);
+    assert.ok(!/vertical/.test(chosen), chosen);
+    await dialog.getByRole("button", { name: "Leave it" }).click();
+  }));
+
+test("two files of one name that come together are two records", () =>
+  on(async (page) => {
+    await drop(page, ["x.csv", sine(1)], ["x.csv", sine(2)]);
+    await page.evaluate(() => globalThis.dropped);
+    const rows = page.locator("#panel-suite .workbench tbody tr");
+    await rows.nth(4).waitFor();
+    assert.deepEqual(await rows.locator("th").allInnerTexts().then((all) => all.slice(-2)), ["x.csv", "x (2).csv"]);
+  }));
+
+test("a check that is stopped leaves figures, text and link of one model, and is made when asked for", () =>
+  on(async (page) => {
+    await page.evaluate(() => {
+      const { desk } = globalThis.slipstick;
+      // As "Start another" does, before the check is made.
+      const hear = desk.onanswer;
+      desk.onanswer = (answered) => {
+        hear(answered);
+        desk.onanswer = hear;
+        desk.helper.end();
+        void desk.helper.start();
+      };
+      desk.set([["slider.kinetic_friction", "0.031"]]);
+    });
+    await page.locator(".results .certificate", { hasText: "Not checked" }).waitFor();
+    assert.equal(await page.locator(".stage.behind").count(), 0);
+    await page.getByRole("button", { name: "Check it" }).click();
+    await settled(page);
+    assert.match(await page.locator(".results .certificate").innerText(), /^Computed right/);
+    assert.match(await page.locator("#model-text").inputValue(), /kinetic_friction = 0\.031/);
   }));
 
 test("a silent worker is shown as busy and can be replaced", () =>
@@ -529,6 +612,7 @@ test("a silent worker is shown as busy and can be replaced", () =>
     await page.locator(".note-bar.busy").waitFor({ timeout: 4000 });
     assert.deepEqual(await headline(page), before);
     await page.getByRole("button", { name: "Start another" }).click();
+    assert.equal(await page.locator(".behind").count(), 0, "what is shown stays, and is what is wanted");
     await setField(page, "Kinetic friction", "0.04");
     await settled(page);
     assert.notDeepEqual(await headline(page), before);
@@ -611,7 +695,7 @@ test("fragility takes the bounds of friction apart", () =>
 
 test("contents are added key by key, and the text says them", () =>
   on(async (page) => {
-    await page.evaluate(() => globalThis.slipstick.set([["contents.1.floor", "1"], ["contents.1.mass", "20 kg"], ["contents.1.static_friction", "0.3"], ["contents.1.kinetic_friction", "0.25"]]));
+    await page.evaluate(() => globalThis.slipstick.desk.set([["contents.1.floor", "1"], ["contents.1.mass", "20 kg"], ["contents.1.static_friction", "0.3"], ["contents.1.kinetic_friction", "0.25"]]));
     await settled(page);
     const text = await page.locator("#model-text").inputValue();
     assert.match(text, /\[\[contents\]\]\nfloor = 1\nmass = "20 kg"\nstatic_friction = 0.3\nkinetic_friction = 0.25\n/);
@@ -701,36 +785,38 @@ test("everything is done by keyboard", () =>
     assert.equal(await label(), "Play");
   }));
 
-for (const [scheme, forcedColors] of [["light", "none"], ["dark", "none"], ["light", "active"], ["dark", "active"]]) {
-  test(`no violation of WCAG AA, ${scheme}${forcedColors === "active" ? ", forced colours" : ""}`, () =>
-    on(
-      async (page) => {
-        // A scene with its answer, and B, which it keeps.
-        await page.evaluate(() => globalThis.slipstick.guides.open("bounds"));
-        await settled(page);
-        await page.locator(".guide").getByRole("button", { name: "Show the answer" }).click();
-        await page.locator(".guide .answer h3").waitFor();
-        await page.locator(".legend summary").click();
-        await page.addScriptTag({ path: axe }).catch(async () => page.evaluate(readFileSync(axe, "utf8")));
-        for (const tab of ["motion", "sweep", "suite", "spectrum", "sensitivity", "ida", "fragility", "design", "study"]) {
-          await page.locator(`#tab-${tab}`).click();
-          if (tab === "spectrum") {
-            await page.locator("#panel-spectrum button.main").click();
-            await page.locator("#panel-spectrum .sheet").waitFor({ timeout: 60000 });
-          }
+test("no violation of WCAG AA on any tab, light and dark, with forced colours too", () =>
+  on(
+    async (page) => {
+      // A scene with its answer, and B, which it keeps.
+      await page.evaluate(() => globalThis.slipstick.guides.open("bounds"));
+      await settled(page);
+      await page.locator(".guide").getByRole("button", { name: "Show the answer" }).click();
+      await page.locator(".guide .answer h3").waitFor();
+      await page.locator(".legend summary").click();
+      await page.addScriptTag({ path: axe }).catch(async () => page.evaluate(readFileSync(axe, "utf8")));
+      for (const tab of ["motion", "sweep", "suite", "spectrum", "sensitivity", "ida", "fragility", "design", "study"]) {
+        await page.locator(`#tab-${tab}`).click();
+        if (tab === "spectrum") {
+          await page.locator("#panel-spectrum button.main").click();
+          await page.locator("#panel-spectrum .sheet").waitFor({ timeout: 60000 });
+        }
+        for (const [colorScheme, forcedColors] of [["light", "none"], ["dark", "none"], ["light", "active"], ["dark", "active"]]) {
+          await page.emulateMedia({ colorScheme, forcedColors });
           await page.waitForTimeout(300);
           const found = await page.evaluate(async () => {
             const result = await globalThis.axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"] });
             return result.violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.target.join(" ")).slice(0, 4).join(", ")}`);
           });
-          assert.deepEqual(found, [], tab);
+          assert.deepEqual(found, [], `${tab}, ${colorScheme}${forcedColors === "active" ? ", forced colours" : ""}`);
         }
-      },
-      { colorScheme: scheme, forcedColors, bypassCSP: true },
-    ));
-}
+      }
+    },
+    { bypassCSP: true },
+  ));
 
 loading(test, on, site);
+state(test, on);
 whole(test, on, root);
 report(test, () => chromium, axe, root);
 runs(test, on);
@@ -821,33 +907,34 @@ test("it prints as pages of A4 with the report's figures", () =>
     assert.ok(pages >= 2 && pages <= 8, `${pages} pages`);
   }));
 
-test("pictures at three widths, in light and dark", async () => {
-  for (const [width, height] of [[390, 844], [900, 900], [1600, 1000]]) {
-    for (const colorScheme of ["light", "dark"]) {
-      await on(
-        async (page) => {
-          await page.waitForTimeout(1300);
-          const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
-          assert.ok(wide <= 0, `${width}: ${wide} px too wide`);
-          await page.screenshot({ path: join(shots, `${width}-${colorScheme}.png`), fullPage: width < 1500 });
-        },
-        { viewport: { width, height }, colorScheme },
-      );
+test("pictures at three widths, in light and dark", () =>
+  on(async (page) => {
+    for (const [width, height] of [[390, 844], [900, 900], [1600, 1000]]) {
+      await page.setViewportSize({ width, height });
+      for (const colorScheme of ["light", "dark"]) {
+        await page.emulateMedia({ colorScheme });
+        await page.waitForTimeout(600);
+        const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+        assert.ok(wide <= 0, `${width}: ${wide} px too wide`);
+        await page.screenshot({ path: join(shots, `${width}-${colorScheme}.png`), fullPage: width < 1500 });
+      }
     }
-  }
-});
+  }));
 
 let [passed, failed, skipped] = [0, 0, 0];
+/** How long each test took, in s. */
+const took = [];
 const left = tests.filter(([name]) => !only || name.includes(only));
 /** Runs tests, one after the other, until none is left. */
 async function some() {
   for (let next = left.shift(); next; next = left.shift()) {
     const [name, run] = next;
+    const start = performance.now();
     try {
       if (!chromium.isConnected()) chromium = await browser();
       let timer;
       const late = new Promise((_, reject) => {
-        timer = setTimeout(() => reject(new Error("it took longer than 240 s")), 240_000);
+        timer = setTimeout(() => reject(new Error(`it took longer than ${LONGEST_S} s`)), 1000 * LONGEST_S);
       });
       const said = await Promise.race([run(), late]).finally(() => clearTimeout(timer));
       if (typeof said === "string") {
@@ -858,11 +945,15 @@ async function some() {
       failed++;
       console.log(`  FAILED: ${name}\n    ${String(error.stack ?? error).split("\n").slice(0, 14).join("\n    ")}`);
     }
+    took.push([(performance.now() - start) / 1000, name]);
   }
 }
 // Two at a time: a page keeps one processor busy, and not all the time.
 await Promise.all([some(), some()]);
 await chromium.close();
 site.close();
+took.sort(([a], [b]) => b - a);
+console.log("  the longest:");
+for (const [seconds, name] of took.slice(0, SLOWEST)) console.log(`    ${seconds.toFixed(1).padStart(5)} s  ${name}`);
 console.log(`${passed} passed, ${failed} failed, ${skipped} skipped`);
 process.exitCode = failed > 0 ? 1 : 0;

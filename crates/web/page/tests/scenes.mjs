@@ -1,10 +1,9 @@
 // The guided scenes: their figures are the command's, their words are true of them.
 
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { settled, temporary } from "./harness.mjs";
+import { ran, settled, temporary } from "./harness.mjs";
 
 /** What the words of an answer claim of the figures of its runs. */
 const CLAIMS = {
@@ -69,7 +68,7 @@ export function scenes(test, on, site) {
             for (const [name, text, set] of runs.filter((_, i) => runs.length < 6 || i % 6 === 0)) {
               writeFileSync(join(out.folder, "model.toml"), text);
               const words = ["run", "model.toml", "--json", "-q", ...set.flatMap(([path, value]) => ["--set", `${path}=${value}`])];
-              const there = JSON.parse(execFileSync(command, words, { cwd: out.folder, stdio: ["ignore", "pipe", "ignore"] }));
+              const there = JSON.parse(await ran(command, words, { cwd: out.folder }));
               assert.equal(found[name].peak_m, there.peak_sliding_displacement_m, `${id}, ${name}`);
               assert.equal(found[name].residual_m, there.residual_sliding_displacement_m, `${id}, ${name}`);
               assert.equal(found[name].block_m_per_s2, there.block.peak_acceleration_m_per_s2, `${id}, ${name}`);
@@ -85,6 +84,73 @@ export function scenes(test, on, site) {
       } finally {
         out.remove();
       }
+    }));
+
+  for (const [width, height] of [[1440, 900], [1024, 768], [390, 844]]) {
+    test(`a scene begins at its start, with what is to be dragged in view, at ${width} × ${height}`, () =>
+      on(
+        async (page) => {
+          for (const id of Object.keys(CLAIMS)) {
+            const time = await page.evaluate((id) => {
+              const { desk, guides } = globalThis.slipstick;
+              const hear = desk.onanswer;
+              return new Promise((done) => {
+                desk.onanswer = (answered) => {
+                  hear(answered);
+                  desk.onanswer = hear;
+                  done(globalThis.slipstick.time);
+                };
+                guides.open(id);
+              });
+            }, id);
+            assert.equal(time, 0, `${id} begins at its start`);
+            await page.waitForFunction((id) => globalThis.slipstick.desk.rests && globalThis.slipstick.guides.id === id && document.querySelector(".second input[type=range]"), id);
+            // It is brought into view with the next frame.
+            await page.waitForFunction(() => document.querySelector(".second input[type=range]").getBoundingClientRect().bottom <= innerHeight, null, { timeout: 3000 }).catch(() => {});
+            const scene = await page.locator(".scene").boundingBox();
+            const control = await page.locator(".second input[type=range]").boundingBox();
+            assert.ok(control.y >= 0 && control.y + control.height <= height, `${id}: its control from ${control.y} to ${control.y + control.height} px`);
+            assert.ok(control.y >= scene.y + scene.height - 1 || control.x + control.width <= scene.x, `${id}: its control is not behind the picture`);
+            const before = await page.evaluate(() => globalThis.slipstick.updates);
+            await page.mouse.move(control.x + control.width * 0.5, control.y + control.height / 2);
+            await page.mouse.down();
+            await page.mouse.move(control.x + control.width * 0.55, control.y + control.height / 2, { steps: 3 });
+            await page.mouse.up();
+            await settled(page);
+            assert.ok((await page.evaluate(() => globalThis.slipstick.updates)) > before, `${id}: it is followed`);
+          }
+        },
+        { viewport: { width, height } },
+      ));
+  }
+
+  test("the bar of space plays and pauses from anywhere that is not a field", () =>
+    on(async (page) => {
+      await page.evaluate(() => globalThis.slipstick.guides.open("sticking"));
+      await settled(page);
+      const label = () => page.locator(".play").getAttribute("aria-label");
+      const turns = async (why) => {
+        const before = await label();
+        await page.keyboard.press("Space");
+        assert.notEqual(await label(), before, why);
+      };
+      await page.locator("footer").click();
+      await turns("from the page itself");
+      await page.getByRole("button", { name: "1.7 m/s²" }).click();
+      await settled(page);
+      await turns("after a button was pressed by a pointer");
+      await page.locator(".second input[type=range]").focus();
+      await turns("from a slider");
+      await page.locator("#model-text").focus();
+      const before = await label();
+      await page.keyboard.press("Space");
+      assert.equal(await label(), before, "a field takes it as a letter");
+      // By keyboard a button is pressed.
+      await page.locator(".play").focus();
+      await page.keyboard.press("Tab");
+      await page.keyboard.press("Shift+Tab");
+      await page.keyboard.press("Space");
+      assert.notEqual(await label(), before);
     }));
 
   test("a scene opens by its short link, in the frame of another page too, and Close ends it", () =>

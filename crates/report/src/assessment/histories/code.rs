@@ -195,7 +195,7 @@ impl HistoriesReport<'_> {
             _ => format!(" with {} friction", bound.name),
         };
         let message = format!(
-            "{of_model}the displacement D_M = {} {} of the equivalent-lateral-force procedure{friction} passes the {what} \
+            "{of_model}the displacement D_M = {} {} of the equivalent-lateral-force procedure{friction} exceeds the {what} \
              of {} {}: the isolators cannot take what the spectrum asks for, and k_M, T_M and D_M beyond it are of \
              isolators that could",
             cell(unit.of(displacement_m)),

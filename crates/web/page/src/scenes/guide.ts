@@ -12,6 +12,8 @@ export interface Place {
   /** Opens a whole model, and keeps another as B, or none. */
   open: (text: string, pinned: string | undefined) => void;
   set: (settings: Setting[]) => void;
+  /** What is to be dragged in a scene, beside its words; nothing where none is open. Its picture begins. */
+  begin: (path: string | undefined) => HTMLElement;
   /** Another scene is open, or none. */
   changed: () => void;
   copy: (text: string, said: string) => void;
@@ -64,10 +66,11 @@ export class Guides {
     this.guide = guide;
     this.found = undefined;
     this.element.hidden = !guide;
-    if (guide) this.draw(guide);
+    const control = this.place.begin(guide?.path);
+    if (guide) this.draw(guide, control);
   }
 
-  private draw(guide: Guide): void {
+  private draw(guide: Guide, control: HTMLElement): void {
     const { place } = this;
     const number = SCENES.indexOf(guide);
     const [before, next] = [SCENES[number - 1], SCENES[number + 1]];
@@ -81,7 +84,7 @@ export class Guides {
       h("p", { class: "count" }, `Scene ${number + 1} of ${SCENES.length}, about a minute`),
       h("h2", {}, guide.title),
       h("p", { class: "lead" }, guide.question),
-      h("dl", {}, h("dt", {}, "Drag"), h("dd", {}, guide.drag, " ", h("span", { class: "actions" }, ...guide.steps.map(({ label, set }) => button(label, () => place.set(set))))), h("dt", {}, "See"), h("dd", {}, guide.see)),
+      h("dl", {}, h("dt", {}, "Drag"), h("dd", {}, guide.drag, control, h("span", { class: "actions" }, ...guide.steps.map(({ label, set }) => button(label, () => place.set(set))))), h("dt", {}, "See"), h("dd", {}, guide.see)),
       answer,
       h("div", { class: "actions" }, reveal, before && button("Previous scene", () => this.open(before.id)), next && button("Next scene", () => this.open(next.id)), button("Close", () => this.close())),
       h("details", { class: "fold" }, h("summary", {}, "Embed this scene"), code, h("div", { class: "actions" }, button("Copy the code", () => place.copy(code.value, "The code is in the clipboard.")), button("Copy the link", () => place.copy(linkOf(guide.id), "The link is in the clipboard.")))),
@@ -104,7 +107,7 @@ export class Guides {
     try {
       for (const [i, [name, { text = guide.model, set = [] }]] of runs.entries()) {
         fill(into, h("p", {}, `Computing ${i + 1} of ${runs.length} analyses.`));
-        found[name] = (await helper.call("analyse", text, set, display())).state;
+        found[name] = (await helper.call("analyse", { number: i + 1, text, set, display: display(), stepwise: false })).state;
       }
       if (this.guide !== guide) return;
       this.found = found;

@@ -31,6 +31,8 @@ export interface Guide {
   /** The text that is kept as B. */
   pinned?: string;
   drag: string;
+  /** The value that is dragged, by its path. */
+  path: string;
   steps: Step[];
   see: string;
   runs: Record<string, Run>;
@@ -78,6 +80,7 @@ export const SCENES: Guide[] = [
     question: "The table shakes, and the block rides along without sliding. How hard must it be shaken before it slides?",
     model: STICK,
     drag: "Amplitude, slowly, from 1.4 to 1.8 m/s².",
+    path: "motion.sine.amplitude",
     steps: [{ label: "1.6 m/s²", set: [["motion.sine.amplitude", "1.6 m/s2"]] }, { label: "1.7 m/s²", set: [["motion.sine.amplitude", "1.7 m/s2"]] }],
     see: "The arrow of friction grows with the table's acceleration until friction has no more to give. Then the line under the block turns orange.",
     runs: {
@@ -97,6 +100,7 @@ export const SCENES: Guide[] = [
     model: STATIC,
     pinned: edited(STATIC, "Equal coefficients", ["static_friction  = 0.165", "static_friction  = 0.153"]),
     drag: "Static friction, down to the kinetic friction of 0.153. B, in outline, has them equal already.",
+    path: "slider.static_friction",
     steps: [{ label: "0.153", set: [["slider.static_friction", "0.153"]] }, { label: "0.165", set: [["slider.static_friction", "0.165"]] }],
     see: "Between the two lies the acceleration of this table. With the higher static friction the block never lets go; with equal coefficients it slides in every half cycle.",
     runs: { higher: {}, equal: { set: [["slider.static_friction", "0.153"]] }, strong: { set: [["motion.sine.amplitude", "3 m/s2"]] }, strongEqual: { set: [["motion.sine.amplitude", "3 m/s2"], ["slider.static_friction", "0.153"]] } },
@@ -111,6 +115,7 @@ export const SCENES: Guide[] = [
     question: "After the earthquake the block does not stand where it stood. What brings it back?",
     model: RESIDUAL,
     drag: "Radius of the pendulum, from 10 m down to 0.5 m.",
+    path: "slider.radius",
     steps: [{ label: "2 m", set: [["slider.radius", "2 m"]] }, { label: "0.5 m", set: [["slider.radius", "0.5 m"]] }, { label: "Flat, no restoring force", set: [["slider.spring", "0 N/m"]] }],
     see: "Residual, in the headline, and the end of the curve of sliding displacement.",
     runs: { flat: { set: [["slider.spring", "0 N/m"]] }, ten: { set: [["slider.radius", "10 m"]] }, two: { set: [["slider.radius", "2 m"]] }, half: { set: [["slider.radius", "0.5 m"]] } },
@@ -125,6 +130,7 @@ export const SCENES: Guide[] = [
     question: "Sliding protects the mass on top from resonance. Always?",
     model: RESONANCE,
     drag: "Frequency of the table, from 1 to 2.5 Hz, through that of the oscillator.",
+    path: "motion.sine.frequency",
     steps: [{ label: "1.625 Hz", set: [["motion.sine.frequency", "1.625 Hz"]] }, { label: "1.75 Hz", set: [["motion.sine.frequency", "1.75 Hz"]] }, { label: "2.5 Hz", set: [["motion.sine.frequency", "2.5 Hz"]] }],
     see: "Roof acceleration, against the 1 m/s² of the table, and the table of a fixed base beside the pictures.",
     runs: Object.fromEntries(FREQUENCIES.map((f) => [`${f}`, { set: [["motion.sine.frequency", `${f} Hz`]] }])),
@@ -145,6 +151,7 @@ export const SCENES: Guide[] = [
     question: "A wall ends the travel of the sliders. What does the building feel of it?",
     model: STOP,
     drag: "Gap to the stop, from 40 to 80 mm.",
+    path: "slider.stop.gap",
     steps: [{ label: "20 mm", set: [["slider.stop.gap", "20 mm"]] }, { label: "40 mm", set: [["slider.stop.gap", "40 mm"]] }, { label: "80 mm", set: [["slider.stop.gap", "80 mm"]] }],
     see: "The block is stopped at the wall, and its acceleration jumps.",
     runs: { narrow: { set: [["slider.stop.gap", "20 mm"]] }, middle: { set: [["slider.stop.gap", "40 mm"]] }, wide: { set: [["slider.stop.gap", "80 mm"]] } },
@@ -160,6 +167,7 @@ export const SCENES: Guide[] = [
     model: BOUNDS,
     pinned: edited(BOUNDS, "Upper bound of friction", ["static_friction  = 0.060", "static_friction  = 0.078"], ["kinetic_friction = 0.050", "kinetic_friction = 0.065"], [/^bounds.*\n/m, ""]),
     drag: "Kinetic friction, from 0.05 to 0.04, its lower bound. B has the upper bound.",
+    path: "slider.kinetic_friction",
     steps: [{ label: "Lower bound", set: friction("0.048", "0.04") }, { label: "Nominal", set: friction("0.06", "0.05") }, { label: "Upper bound", set: friction("0.078", "0.065") }],
     see: "Peak sliding grows as friction falls; the acceleration of the block does not.",
     runs: { lower: { set: friction("0.048", "0.04") }, nominal: {}, upper: { set: friction("0.078", "0.065") } },
@@ -174,6 +182,7 @@ export const SCENES: Guide[] = [
     question: "The ground moves up and down too. Does the block slide farther for it?",
     model: VERTICAL,
     drag: "Factor on the vertical motion, from 0 to 2.",
+    path: "motion.vertical_scale",
     steps: [{ label: "0", set: [["motion.vertical_scale", "0"]] }, { label: "1", set: [["motion.vertical_scale", "1"]] }, { label: "2", set: [["motion.vertical_scale", "2"]] }],
     see: "Force on the slider, as the third picture and in the loop: its limits are no longer straight lines, for they go with the weight on the slider.",
     runs: { none: { set: [["motion.vertical_scale", "0"]] }, one: { set: [["motion.vertical_scale", "1"]] }, two: { set: [["motion.vertical_scale", "2"]] } },
@@ -188,6 +197,7 @@ export const SCENES: Guide[] = [
     question: "The ground moves in both horizontal directions. Is it enough to look at each by itself?",
     model: TWO,
     drag: "Turn of the pair, from 0 to 90 degrees.",
+    path: "motion.rotate",
     steps: [{ label: "0°", set: [["motion.rotate", "0 deg"]] }, { label: "45°", set: [["motion.rotate", "45 deg"]] }, { label: "90°", set: [["motion.rotate", "90 deg"]] }],
     see: "The way of the block from above: friction acts against its way, so that sliding along y takes from what holds it along x.",
     runs: { alone: { text: ONE }, ...Object.fromEntries(TURNS.map((turn) => [`${turn}`, { set: [["motion.rotate", `${turn} deg`]] as Setting[] }])) },
