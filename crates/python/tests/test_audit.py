@@ -38,13 +38,18 @@ def test_the_script_is_python_with_the_numbers_of_the_model() -> None:
          "10 kN/mm", "slider.stop.damper"),
         (ALIKE, "10 kN", "k_init"),
         (ALIKE, "-1 kN/mm", "k_init"),
-        (ALIKE, 1e7, "k_init"),
+        (ALIKE, True, "k_init"),
     ],
 )
 def test_what_cannot_be_expressed_is_refused(keys: dict[str, object], k_init: object, told: str) -> None:
     with pytest.raises(ss.InputError, match=told) as caught:
         block().with_(keys).to_opensees(pulse(), k_init)  # type: ignore[arg-type]
     assert caught.value.path == told
+
+
+def test_a_bare_stiffness_is_in_si() -> None:
+    model = block().with_(ALIKE)
+    assert model.to_opensees(pulse(), 1e7) == model.to_opensees(pulse(), "10 kN/mm")
 
 
 def frame() -> ss.Model:

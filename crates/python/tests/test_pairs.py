@@ -2,6 +2,7 @@
 
 import json
 import re
+import tempfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -13,9 +14,21 @@ import slipstick as ss
 from support import EXAMPLES, command
 
 MODEL = EXAMPLES / "taft.toml"
+#: Records as far as they are strong: a run in two directions costs by the sample.
+SAMPLES = {"taft-021": 1500, "taft-111": 1500, "el-centro-180": 1200}
+FOLDER = tempfile.TemporaryDirectory(prefix="slipstick-pairs-")
+
+
+def first_samples(name: str) -> Path:
+    """A file of the first samples of a record of the examples, one a line."""
+    path = Path(FOLDER.name) / f"{name}.txt"
+    lines = (EXAMPLES / "records" / path.name).read_text(encoding="utf-8").splitlines(keepends=True)
+    path.write_text("".join(lines[: SAMPLES[name]]), encoding="utf-8")
+    return path
+
+
 #: The last two are of no one station: a pair of other lengths.
-X, Y = ([EXAMPLES / "records" / f"{name}.txt" for name in names] for names in (
-    ("taft-021", "el-centro-180"), ("taft-111", "taft-021")))
+X, Y = ([first_samples(name) for name in names] for names in (("taft-021", "el-centro-180"), ("taft-111", "taft-021")))
 READ: dict[str, Any] = {"units": "g", "dt": 0.01}
 PEAK = "peak_sliding_displacement_m"
 
