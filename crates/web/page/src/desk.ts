@@ -243,6 +243,8 @@ export interface Answered {
   judgement?: Judgement;
   /** Why it is not judged, where it will not be by itself. */
   unchecked?: string;
+  /** Its text with the keys is not known, and will not be by itself. */
+  unread?: boolean;
   /** The files have changed since: it cannot be made again. */
   gone?: boolean;
 }
@@ -300,7 +302,9 @@ export class Desk {
   /** Whether nothing of what is wanted is on its way any more. */
   get rests(): boolean {
     const { answered } = this;
-    return !this.asked && this.done === this.wanted.number && (!answered || answered.judgement !== undefined || answered.unchecked !== undefined);
+    if (this.asked || this.done !== this.wanted.number) return false;
+    if (!answered || answered.judgement) return true;
+    return answered.unchecked !== undefined && (answered.of.set.length === 0 || answered.unread === true);
   }
 
   /** Whether what is wanted has no answer, and will have none. */
@@ -402,11 +406,21 @@ export class Desk {
     } else this.leave(answered, found);
   }
 
-  /** An answer stays without a check; the certificate says why. */
+  /** An answer stays without a check; the certificate says why. Its keys stand in its text all the same. */
   private leave(answered: Answered, { message }: Fault): void {
     answered.unchecked = message;
     this.onjudged(answered);
-    this.release();
+    if (answered.of.set.length === 0) {
+      this.release();
+      return;
+    }
+    const unread = () => {
+      answered.unread = true;
+    };
+    void this.helper
+      .call("text", answered.of)
+      .then((text) => this.fold(answered.of.number, text), unread)
+      .then(() => this.release());
   }
 
   /** The worker is gone that was to judge what is shown. */

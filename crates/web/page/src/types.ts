@@ -301,6 +301,8 @@ export interface Calls {
   /** With a time in ms the answer is judged where no newer one is asked for in it. */
   analyse: (of: Revision, restMs?: number) => Answer;
   judge: (of: Revision) => Judgement;
+  /** Its text with the keys set. */
+  text: (of: Revision) => string;
   /** Judges it once what is asked before is done; what is found comes as what is judged at rest. */
   check: (of: Revision) => void;
   /** Files of the names, all made of one judged answer, and its model's text. */

@@ -107,6 +107,10 @@ const calls: Calls = {
     return result;
   },
   judge,
+  text(of) {
+    hold(of);
+    return session.text();
+  },
   check(of) {
     clearTimeout(resting);
     resting = setTimeout(() => judgeAtRest(of));

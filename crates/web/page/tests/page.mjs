@@ -1,4 +1,4 @@
-// The page as a person uses it: `node tests/page.mjs FOLDER [NAME]`. The last line counts.
+// The page as a person uses it: `node tests/page.mjs FOLDER [NAME|NAME…]`, parts of the names of tests. The last line counts.
 
 import assert from "node:assert/strict";
 import { mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
@@ -924,7 +924,7 @@ test("pictures at three widths, in light and dark", () =>
 let [passed, failed, skipped] = [0, 0, 0];
 /** How long each test took, in s. */
 const took = [];
-const left = tests.filter(([name]) => !only || name.includes(only));
+const left = tests.filter(([name]) => !only || only.split("|").some((part) => name.includes(part)));
 /** Runs tests, one after the other, until none is left. */
 async function some() {
   for (let next = left.shift(); next; next = left.shift()) {
