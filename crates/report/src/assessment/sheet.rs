@@ -364,11 +364,14 @@ fn is_narrow(rows: &[Vec<String>]) -> bool {
         };
         row.len() <= 5 && row.iter().enumerate().all(width)
     };
-    rows.len() <= 40 && rows.iter().all(short)
+    rows.len() <= MOST_ROWS && rows.iter().all(short)
 }
 
 /// Bytes of what follows the answers up to which it stands on one page, so that none has the command alone.
 const SHORT_CLOSING: usize = 5000;
+
+/// Rows that one column of a printed page holds, with room to spare.
+const MOST_ROWS: usize = 60;
 
 /// Characters of names and of numbers in tables that stand beside each other.
 const MOST_NAME: usize = 40;

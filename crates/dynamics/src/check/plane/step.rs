@@ -33,6 +33,8 @@ const ROUNDING: [f64; 2] = [1e-9, 1e-3];
 pub(super) const FINE: f64 = 1e-10;
 /// Most passes of the iteration.
 const MOST_PASSES: usize = 40;
+/// No change of a force.
+const ONE: [Pair; 2] = [[1.0, 0.0], [0.0, 1.0]];
 /// Unknowns of the block at the nodes.
 const UNKNOWNS: usize = 2 * NODES;
 
@@ -411,7 +413,7 @@ impl<'a> Stepper<'a> {
         for pass in 0..MOST_PASSES {
             let (mut change, mut size) = (0.0_f64, terms);
             let (mut bends, mut off) = ([[[[0.0; 2]; 2]; 2]; NODES], [0.0; UNKNOWNS]);
-            let mut own = [[[1.0, 0.0], [0.0, 1.0]]; NODES];
+            let mut own = [ONE; NODES];
             let w = moved(&influence.of_w, &free[1], forces);
             let s = if follows { moved(&influence.of_s, &free[0], forces) } else { free[0] };
             for j in 0..NODES {
@@ -448,8 +450,8 @@ impl<'a> Stepper<'a> {
                         let columns = [0, 1].map(|b| along([of[0][b], of[1][b]]));
                         [0, 1].map(|a| [columns[0][a], columns[1][a]])
                     };
-                    own[j] = rows(own[j]);
-                    bends[j] = bends[j].map(rows);
+                    let [by_w, by_s] = bends[j];
+                    (own[j], bends[j]) = (rows(ONE), [rows(by_w), rows(by_s)]);
                     for (a, row) in bends[j][0].iter_mut().enumerate() {
                         (0..2).for_each(|b| row[b] += per_s * n[a] * n[b]);
                     }
