@@ -573,6 +573,8 @@ export class App {
     this.bar.update();
     this.mark();
     if (judgement) this.news ||= "judgement";
+    // Where what is wanted has no answer, the link is of what stays.
+    if (judgement && this.desk.refused) void this.remember();
   }
 
   private fault(fault: Fault, of?: Revision): void {
@@ -592,6 +594,7 @@ export class App {
     this.controls.refuse(of.set.slice(-1), message);
     this.records.update();
     this.mark();
+    void this.remember();
   }
 
   // ---- pictures

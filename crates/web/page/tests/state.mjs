@@ -296,6 +296,10 @@ async function atRest(page, whole) {
     assert.equal(now.gone, zip === undefined, "a ZIP, where there are the files for one");
     if (!zip) return;
     assert.deepEqual(now.headline, zip.truth.headline, "figures and ZIP");
+    for (let i = 0; i < 100 && link && link.text !== zip.text; i++) {
+      await page.waitForTimeout(20);
+      link = await page.evaluate(() => globalThis.tried.linked());
+    }
     if (link) assert.equal(link.text, zip.text, "link and ZIP");
     return;
   }
