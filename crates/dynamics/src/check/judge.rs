@@ -137,6 +137,8 @@ pub(super) trait Directions {
     fn at_stop(&self, k: usize) -> [f64; 2] {
         self.stored(k, 0)
     }
+    /// Whether the block is at a rigid stop at a knot, which it leans on if it rests.
+    fn leans(&self, k: usize) -> bool;
     /// Judges the knot at which contact with a stop has changed.
     fn touched(&mut self, _: usize) {}
     /// Judges the knot at which some mode has changed.
@@ -304,7 +306,7 @@ where
                 self.join(from, arrived);
             }
             if from < to {
-                let bears_on_stop = self.law.bears_on_stop(self.at_stop(from)[0]) != [false; 2];
+                let bears_on_stop = self.leans(from);
                 let length_s = h.time_s[to] - h.time_s[from];
                 self.totals.add(h.modes(from), self.contact(from), length_s, bears_on_stop);
                 self.go_through(run)?;

@@ -204,6 +204,10 @@ impl<'a> Directions for Judge<'a, Line<'a>> {
         struck
     }
 
+    fn leans(&self, k: usize) -> bool {
+        self.law.bears_on_stop(self.h.sliding_displacement_m[k]) != [false; 2]
+    }
+
     fn closest_call_of_slip(&mut self, i: usize, direction: Direction) -> Option<ClosestCall> {
         if self.drops(i, direction) { self.dips[i].least(DecisionKind::Slip, i) } else { None }
     }

@@ -131,10 +131,13 @@ impl<'a> PlaneJudge<'a> {
         State { x, v, pressed: self.presses(k) }
     }
 
-    /// Whether the block presses the stop around it from a knot on: at rest at one that does not give way it leans on it.
+    /// Whether the block presses the stop around it from a knot on: on a line, as in one direction, it leans at rest on one
+    /// that does not give way.
     pub(super) fn presses(&self, k: usize) -> bool {
         let rests = || {
-            self.mode(k) == Mode::Stick && self.law.bears_on_stop(norm(self.place(k))) != [false; 2]
+            self.axes.line.is_some()
+                && self.mode(k) == Mode::Stick
+                && self.law.bears_on_stop(norm(self.place(k))) != [false; 2]
         };
         matches!(self.contact(k), Contact::Pressed(_)) || rests()
     }
@@ -433,6 +436,10 @@ impl Directions for PlaneJudge<'_> {
     fn at_stop(&self, k: usize) -> [f64; 2] {
         let (radius_m, rate) = along_radius(self.place(k), self.state(k).speed());
         [radius_m, rate]
+    }
+
+    fn leans(&self, k: usize) -> bool {
+        self.presses(k)
     }
 
     fn touched(&mut self, k: usize) {

@@ -406,7 +406,8 @@ impl<'a> Stepper<'a> {
         let under = self.under(&stretch);
         let kappa: [f64; NODES] = core::array::from_fn(|i| self.stiffness(under.normal[1 + i]));
         let stop = frame.stop.filter(|_| stretch.pressed);
-        let rigid = stop.filter(|stop| stop.is_rigid);
+        // Over a time that cannot be told nothing moves across it, whatever the force.
+        let rigid = stop.filter(|stop| stop.is_rigid && stretch.step_s > 2.0 * self.instant_s);
         let per_s = 1.0 / stretch.step_s;
         let follows = frame.curvature_per_m > 0.0 || stop.is_some();
         let (mut last, mut newton) = (f64::INFINITY, None);
@@ -418,16 +419,23 @@ impl<'a> Stepper<'a> {
             let s = if follows { moved(&influence.of_s, &free[0], forces) } else { free[0] };
             for j in 0..NODES {
                 let (s, w) = ([s[0][j], s[1][j]], [w[0][j], w[1][j]]);
-                let r = norm(w);
+                let mut r = norm(w);
+                // Along a stop that does not give way what is left of a velocity across it is rounding.
+                let along_stop = rigid.map(|_| {
+                    let t = times([-s[1], s[0]], 1.0 / norm(s));
+                    r = dot(t, w).abs();
+                    times(t, dot(t, w).signum())
+                });
                 let [f, slope] = frame.slowing_on(stretch.line, (under.normal[1 + j], r));
                 let mut force = s.map(|s| -kappa[j] * s);
                 bends[j][1] = [[kappa[j], 0.0], [0.0, kappa[j]]];
                 if f > 0.0 && r > 0.0 {
-                    let u = [w[0] / r, w[1] / r];
+                    let u = along_stop.unwrap_or([w[0] / r, w[1] / r]);
                     force = [force[0] - f * u[0], force[1] - f * u[1]];
+                    let turns = if along_stop.is_none() { f / r } else { 0.0 };
                     bends[j][0] = [0, 1].map(|a| {
                         let across = |b: usize| if a == b { 1.0 } else { 0.0 } - u[a] * u[b];
-                        [0, 1].map(|b| f / r * across(b) + slope * u[a] * u[b])
+                        [0, 1].map(|b| turns * across(b) + slope * u[a] * u[b])
                     });
                 }
                 if let Some(stop) = &stop {

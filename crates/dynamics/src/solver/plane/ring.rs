@@ -155,15 +155,14 @@ impl Plane<'_> {
             Some(_) => self.terms(&loads, &self.g) + bears.abs() + self.slowing(&loads),
             None => 0.0,
         };
-        for (j, x) in nodes().at.iter().enumerate() {
-            let place = [0, 1].map(|k| s[k] + step_s * x * w[k]);
+        let places = nodes().at.map(|x| [0, 1].map(|k| s[k] + step_s * x * w[k]));
+        for (j, place) in places.into_iter().enumerate() {
             let stopped = match ring.restitution {
                 Some(_) => place.map(|s| bears / norm(place) * s),
                 None => ring.force_n(place, w).map(|force_n| force_n / kg),
             };
             (0..2).for_each(|axis| self.force.stopped[axis][j] = stopped[axis]);
         }
-        let places = nodes().at.map(|x| [0, 1].map(|k| s[k] + step_s * x * w[k]));
         let heading = if w == [0.0; 2] { self.direction } else { w };
         self.series.along_stop = ring.restitution.map(|_| cross(s, heading).signum());
         self.force.along_stop = self.along_stop(&places);

@@ -9,6 +9,9 @@ use crate::linear::polynomial::{DEGREE, ZERO, derivative, value};
 /// Last Legendre coefficients of a speed over its mean with which Gauss' rule is exact.
 const SMOOTH: f64 = 1e-8;
 
+/// Part of a velocity and its rate of change by which these are across each other but for rounding.
+const ACROSS: f64 = 64.0 * f64::EPSILON;
+
 /// The least local minimum of `|w|` within a slip.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Least {
@@ -35,7 +38,7 @@ impl Least {
     pub(super) fn look(&mut self, series: &PlaneSeries, (to, speeds): (f64, &AtNodes)) {
         match series.kind {
             Kind::Stick => self.interrupt(),
-            _ if series.w.each_ref().map(derivative) == [ZERO; 2] => {}
+            _ if stays(series, to) => {}
             Kind::Frictionless => {
                 let speed = |x: f64| norm(series.velocity_at(x));
                 self.look_at(slope_of(series), speed, (lowest(series, to), to));
@@ -109,6 +112,19 @@ impl Least {
 pub(super) fn slope_of(series: &PlaneSeries) -> impl Fn(f64) -> f64 {
     let change = series.w.each_ref().map(derivative);
     move |x| inner(series.velocity_at(x), change.each_ref().map(|c| value(c, x)))
+}
+
+/// Whether the speed is the same all over the first part of a series: beside a force across the velocity its slope is rounding.
+fn stays(series: &PlaneSeries, to: f64) -> bool {
+    let change = series.w.each_ref().map(derivative);
+    if change == [ZERO; 2] {
+        return true;
+    }
+    let is_rounding = |x: f64| {
+        let (w, change) = (series.velocity_at(x), change.each_ref().map(|c| value(c, x)));
+        inner(w, change).abs() <= ACROSS * norm(w) * norm(change)
+    };
+    series.stopped != [ZERO; 2] && [0.0, 0.25, 0.5, 0.75, 1.0].iter().all(|x| is_rounding(x * to))
 }
 
 /// Points of `(0, to]` at which a slope changes its sign, and whether it is to +.
