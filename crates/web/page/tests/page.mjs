@@ -804,10 +804,12 @@ test("no violation of WCAG AA on any tab, light and dark, with forced colours to
         for (const [colorScheme, forcedColors] of [["light", "none"], ["dark", "none"], ["light", "active"], ["dark", "active"]]) {
           await page.emulateMedia({ colorScheme, forcedColors });
           await page.waitForTimeout(300);
-          const found = await page.evaluate(async () => {
-            const result = await globalThis.axe.run(document, { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"] });
+          // What is not of colours is the same in all of them.
+          const rules = colorScheme === "light" && forcedColors === "none" ? ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"] : { type: "rule", values: ["color-contrast", "link-in-text-block"] };
+          const found = await page.evaluate(async (runOnly) => {
+            const result = await globalThis.axe.run(document, { runOnly });
             return result.violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.target.join(" ")).slice(0, 4).join(", ")}`);
-          });
+          }, rules);
           assert.deepEqual(found, [], `${tab}, ${colorScheme}${forcedColors === "active" ? ", forced colours" : ""}`);
         }
       }
