@@ -196,7 +196,8 @@ impl<'a> PlaneJudge<'a> {
             };
             let first_s = next_s.unwrap_or_else(|| self.outlook(path, &loads));
             let longest_s = most_s.min(left_s / self.axes.stepper.parts(left_s, true));
-            let Some(step) = self.step(path, stretch, (t, left_s), longest_s.min(first_s))? else {
+            let found = self.step(path, stretch, (t, left_s), longest_s.min(first_s))?;
+            let Some((step, at_corner)) = found else {
                 if norm(path.state.speed()) > 0.0 {
                     self.give_up();
                     return Ok(());
@@ -207,7 +208,8 @@ impl<'a> PlaneJudge<'a> {
             let took_s = step.stretch.step_s;
             let gain =
                 libm::pow(self.bearable() / step.defect().max(f64::MIN_POSITIVE), 1.0 / 15.0);
-            next_s = Some(took_s * (0.9 * gain).clamp(0.5, 4.0));
+            // What a corner has cut says nothing about the length of the next.
+            next_s = (!at_corner).then_some(took_s * (0.9 * gain).clamp(0.5, 4.0));
             self.slid(&step);
             self.follow(path, &step);
             t = if took_s >= left_s { length_s } else { t + took_s };
@@ -221,14 +223,15 @@ impl<'a> PlaneJudge<'a> {
         DEFECT * self.figures.velocity[1]
     }
 
-    /// A step of a slip, of this length or as many times halved as it takes; `None` where none is short enough.
+    /// A step of a slip, of this length or as many times halved as it takes, and whether a corner of friction has cut it;
+    /// `None` where none is short enough.
     fn step(
         &mut self,
         path: &IntervalPath,
         stretch: &Stretch,
         (t, left_s): (f64, f64),
         mut step_s: f64,
-    ) -> Result<Option<Box<Step>>, Stopped> {
+    ) -> Result<Option<(Box<Step>, bool)>, Stopped> {
         // No sliver is left.
         if step_s > 0.9 * left_s && self.axes.stepper.parts(left_s, true) == 1.0 {
             step_s = left_s;
@@ -245,7 +248,7 @@ impl<'a> PlaneJudge<'a> {
                 let corner = step.corner(self.axes.stepper.rule, AT_CORNER);
                 match corner.filter(|_| cuts < MOST_CUTS) {
                     Some(corner) => (step_s, cuts) = (step_s * corner, cuts + 1),
-                    None => return Ok(Some(step)),
+                    None => return Ok(Some((step, cuts > 0))),
                 }
             } else {
                 step_s *= 0.5;
