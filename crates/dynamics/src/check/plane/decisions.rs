@@ -79,13 +79,16 @@ impl<'a> PlaneJudge<'a> {
         let (frame, tracked) = (self.frame(), self.tracked());
         let push = pair(&acting.forces.push, 0);
         let (p, f) = (norm(push), frame.slowing(loads, 0.0));
+        // A push beyond friction turns a block that slows down against it past rest; on a line, and along a stop, it stops.
+        let turns = self.axes.line.is_none() && !(frame.wall().is_some() && state.pressed);
         let late = 2.0 * self.instant_s * (p + f);
-        if p > f * (1.0 + 1e-9) && self.axes.arrived > late.max(2.0 * REST * self.dips[0].peak()) {
+        let passes = self.axes.arrived > late.max(2.0 * REST * self.dips[0].peak());
+        if turns && passes && p > f * (1.0 + 1e-9) {
             let off = frame.block_kg * (p - f);
             self.figures.excess = larger(self.figures.excess, off);
         }
         let Some(from) = self.last_heading(k) else { return };
-        if self.axes.line.is_some() {
+        if !turns {
             self.axes.peaks.see(&tracked, &acting, Some(from));
             return;
         }
@@ -295,7 +298,7 @@ impl<'a> PlaneJudge<'a> {
     /// Whether the block strikes a stop that does not give way between the knot before `k` and `k`.
     pub(super) fn strikes(&self, k: usize) -> bool {
         let h = self.h;
-        let Some(ring) = self.frame().stop.filter(|ring| ring.is_rigid) else { return false };
+        let Some(ring) = self.frame().wall() else { return false };
         if k == 0 || h.time_s[k] != h.time_s[k - 1] {
             return false;
         }

@@ -444,6 +444,11 @@ impl<'a> PlaneFrame<'a> {
         forces
     }
 
+    /// A stop around the block that does not give way.
+    pub(super) fn wall(&self) -> Option<Ring> {
+        self.stop.filter(|stop| stop.is_rigid)
+    }
+
     /// What a stop around the block takes that gives way.
     #[inline(always)]
     pub(super) fn stopped(&self, pressed: bool, [s, w]: [Pair; 2]) -> Pair {
@@ -464,7 +469,7 @@ impl<'a> PlaneFrame<'a> {
         let a = self.body.carried(a);
         let push =
             [0, 1].map(|k| (base[k] - spring[k] - damper[k] - stop[k]) / self.block_kg - a[k]);
-        let Some(ring) = self.stop.filter(|ring| pressed && ring.is_rigid) else {
+        let Some(ring) = self.wall().filter(|_| pressed) else {
             return [spring, damper, stop, push];
         };
         let taken = ring.bears(s, w, push);

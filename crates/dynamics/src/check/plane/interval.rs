@@ -416,8 +416,8 @@ impl<'a> PlaneJudge<'a> {
         let points = (0..POINTS).map(|point| (place(point), step.speed(point)));
         let broken = points.map(|(s, w)| self.contact_excess(k, s, w)).fold(0.0, larger);
         self.figures.excess = larger(self.figures.excess, broken);
-        let is_rigid = self.frame().stop.is_some_and(|ring| ring.is_rigid);
-        for point in (0..POINTS).filter(|_| is_rigid) {
+        let has_wall = self.frame().wall().is_some();
+        for point in (0..POINTS).filter(|_| has_wall) {
             self.off_wall(k, place(point), step.speed(point));
             let pulls_n =
                 -dot(unit(place(point)).unwrap_or_default(), pair(&step.acting.forces.stop, point));

@@ -145,7 +145,7 @@ impl<'a> PlaneJudge<'a> {
     /// The place and the speed of a block at a stop that does not give way are those of the law: it is within it, and on it
     /// where it bears on it.
     pub(super) fn off_wall(&mut self, k: usize, s: Pair, w: Pair) {
-        let Some(ring) = self.frame().stop.filter(|ring| ring.is_rigid) else { return };
+        let Some(ring) = self.frame().wall() else { return };
         let slack_m = self.instant_s * norm(w) + 8.0 * f64::EPSILON * self.figures.displacement[1];
         let off_m = norm(s) - ring.gap_m;
         let off_m = if self.presses(k) { off_m.abs() } else { off_m };
@@ -251,7 +251,7 @@ impl<'a> PlaneJudge<'a> {
         let inertia = frame.inertia(pulled);
         let mut balance =
             [0, 1].map(|i| inertia[i] - base[i] + spring[i] + damper[i] + stop[i] - friction[i]);
-        let wall = frame.stop.filter(|ring| ring.is_rigid && state.pressed);
+        let wall = frame.wall().filter(|_| state.pressed);
         if wall.is_some() && self.mode(k) == Mode::Stick {
             // How a block at rest shares its push between friction and a stop is a convention: the stop does not pull.
             let n = unit([state.x[0], state.x[1]]).unwrap_or_default();

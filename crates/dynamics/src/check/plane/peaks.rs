@@ -116,8 +116,7 @@ impl Tracked<'_> {
         (friction, stop): (&mut [Column<N>; 2], &mut [Column<N>; 2]),
         (acting, i): (&Acting<N>, usize),
     ) {
-        let Some(line) = self.line.filter(|_| self.frame.stop.is_some_and(|ring| ring.is_rigid))
-        else {
+        let Some(line) = self.line.filter(|_| self.frame.wall().is_some()) else {
             return;
         };
         let taken_n = dot(pair(stop, i), line);

@@ -153,8 +153,15 @@ impl Step {
     /// what is left of the velocity is rounding, and the force tells its direction; in straight motion it is that of the
     /// point beside it.
     pub(super) fn heading(&self, frame: &PlaneFrame<'_>, point: usize, push: Pair) -> Pair {
-        let (w, Stretch { from_s, step_s, loads, .. }) = (self.speed(point), &self.stretch);
+        let (w, Stretch { from_s, step_s, loads, pressed, .. }) =
+            (self.speed(point), &self.stretch);
         let beside = self.speed(if point == 0 { 1 } else { point - 1 });
+        if frame.wall().is_some() && *pressed {
+            // Along a stop what is left of a velocity across it is rounding.
+            let along = along_wall([0, 1].map(|axis| self.acting.x()[axis][point]));
+            let way = [w, beside].map(|w| dot(along, w)).into_iter().find(|way| *way != 0.0);
+            return times(along, way.unwrap_or(1.0).signum());
+        }
         let under = (from_s + step_s, &loads[0], push);
         let is_end = point == 0 || point + 1 == POINTS;
         let faintest = ROUNDING[usize::from(is_end)] * self.quickest;
@@ -422,7 +429,7 @@ impl<'a> Stepper<'a> {
                 let mut r = norm(w);
                 // Along a stop that does not give way what is left of a velocity across it is rounding.
                 let along_stop = rigid.map(|_| {
-                    let t = times([-s[1], s[0]], 1.0 / norm(s));
+                    let t = along_wall(s);
                     r = dot(t, w).abs();
                     times(t, dot(t, w).signum())
                 });
@@ -548,6 +555,11 @@ impl<'a> Stepper<'a> {
         }
         step
     }
+}
+
+/// The direction along a stop around the block at a place.
+fn along_wall(s: Pair) -> Pair {
+    times([-s[1], s[0]], 1.0 / norm(s))
 }
 
 /// A list of vectors at the nodes, axis by axis.
