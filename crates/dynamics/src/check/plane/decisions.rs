@@ -79,16 +79,15 @@ impl<'a> PlaneJudge<'a> {
         let (frame, tracked) = (self.frame(), self.tracked());
         let push = pair(&acting.forces.push, 0);
         let (p, f) = (norm(push), frame.slowing(loads, 0.0));
-        // A push beyond friction turns a block that slows down against it past rest; on a line, and along a stop, it stops.
-        let turns = self.axes.line.is_none() && !(frame.wall().is_some() && state.pressed);
+        let is_led = self.is_led(&state);
         let late = 2.0 * self.instant_s * (p + f);
         let passes = self.axes.arrived > late.max(2.0 * REST * self.dips[0].peak());
-        if turns && passes && p > f * (1.0 + 1e-9) {
+        if !is_led && passes && p > f * (1.0 + 1e-9) {
             let off = frame.block_kg * (p - f);
             self.figures.excess = larger(self.figures.excess, off);
         }
         let Some(from) = self.last_heading(k) else { return };
-        if !turns {
+        if is_led {
             self.axes.peaks.see(&tracked, &acting, Some(from));
             return;
         }

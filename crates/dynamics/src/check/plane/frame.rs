@@ -477,7 +477,18 @@ impl<'a> PlaneFrame<'a> {
     }
 
     /// `p` alone.
-    pub(super) fn push(&self, State { x, v, pressed }: &State, loads: &Loads) -> Pair {
+    pub(super) fn push(&self, state: &State, loads: &Loads) -> Pair {
+        let [_, _, _, push] = self.driven_in(state, loads);
+        push
+    }
+
+    /// What a stop that does not give way takes over the mass of the block.
+    pub(super) fn borne(&self, state: &State, loads: &Loads) -> Pair {
+        let [_, _, stop, _] = self.driven_in(state, loads);
+        times(stop, 1.0 / self.block_kg)
+    }
+
+    fn driven_in(&self, State { x, v, pressed }: &State, loads: &Loads) -> [Pair; 4] {
         let mut base = [0.0; 2];
         for (list, units) in [&x, &v].into_iter().zip(&self.on_block) {
             for (value, unit) in list[2..].iter().zip(units) {
@@ -486,8 +497,7 @@ impl<'a> PlaneFrame<'a> {
         }
         let (under, own) =
             ((loads.map(|load| load.a), loads[0].normal), [[x[0], x[1]], [v[0], v[1]]]);
-        let [_, _, _, push] = self.driven((base, *pressed), own, under);
-        push
+        self.driven((base, *pressed), own, under)
     }
 
     /// The largest acceleration that the terms of `K q + C q̇` would give by their sizes, to a floor each and to the block

@@ -298,18 +298,20 @@ impl<'a> PlaneJudge<'a> {
             return Reach::Free;
         }
         let stops = self.stops(path.knot + 1);
-        let straight = self.is_straight(w, push, f);
+        let is_led = self.is_led(&path.state);
+        let straight = is_led || self.is_straight(w, push, f);
         let shortest_m = if straight { SHORTEST_STRAIGHT_M } else { SHORTEST_M };
-        let to_rest = if body.is_one() {
-            time_to_rest(w, push, f)
-        } else {
+        let holds = p <= self.frame().holding(loads) * (1.0 + 1e-12);
+        let to_rest = if !body.is_one() {
             body.time_to_rest(w, push, f, shortest_m)
+        } else if p >= f && is_led {
+            (stops && holds).then(|| r / (f - along))
+        } else {
+            time_to_rest(w, push, f)
         };
         let rest_s = match to_rest {
             Some(rest_s) if r * rest_s < shortest_m => Some(rest_s),
-            None if stops && self.rests(r) && p <= self.frame().holding(loads) * (1.0 + 1e-12) => {
-                Some(r / (f + p))
-            }
+            None if stops && self.rests(r) && holds => Some(r / (f + p)),
             _ => None,
         };
         match rest_s.filter(|rest_s| stops || *rest_s <= left_s) {
@@ -318,6 +320,11 @@ impl<'a> PlaneJudge<'a> {
             None if t + reach_s == t || self.rests(r) && p > f => Reach::Turn,
             None => Reach::Within(reach_s),
         }
+    }
+
+    /// Whether the block has but one line to slide on, or a stop to slide along: no push turns it, and it slows down to rest.
+    pub(super) fn is_led(&self, state: &State) -> bool {
+        self.axes.line.is_some() || (self.frame().wall().is_some() && state.pressed)
     }
 
     /// Whether a motion against the push may be straight: it does not turn.

@@ -18,7 +18,7 @@
 use super::super::collocation::{Column, NODES, POINTS, Rule, add, legendre};
 use super::super::rate::SpeedLine;
 use super::frame::{
-    Loads, Pair, PlaneFrame, State, Under, between, cross, dot, norm, pair, times, unit,
+    Loads, Pair, PlaneFrame, Ring, State, Under, between, cross, dot, norm, pair, times, unit,
 };
 use super::maps::{Blocks, Influence, Linear};
 use super::peaks::Acting;
@@ -266,6 +266,51 @@ fn is_least(values: &[f64; POINTS], point: usize) -> bool {
     below(point.checked_sub(1).map(|i| &values[i])) && below(values.get(point + 1))
 }
 
+/// What forces at the nodes of a step are asked for.
+struct Asks {
+    line: Option<SpeedLine>,
+    /// `N` at the nodes, and of the spring that follows it the stiffness over the mass of the block.
+    normal: [f64; NODES],
+    kappa: [f64; NODES],
+    /// The stop that is pressed.
+    stop: Option<Ring>,
+    /// What one that does not give way takes over the mass of the block, where it is known.
+    borne: Pair,
+    /// Where it is not known: the rate at which the block must not move across it.
+    held_per_s: Option<f64>,
+}
+
+/// What is asked of the force at a node.
+struct Asked {
+    /// What it is off.
+    left: Pair,
+    /// How that grows with the force itself, and with `w` and `s`.
+    own: [Pair; 2],
+    bends: [[Pair; 2]; 2],
+    /// The size of its terms.
+    size: f64,
+}
+
+impl Asked {
+    /// Where a stop does not give way what is known across it is not the force but that the block goes nowhere: `n·w = 0`.
+    #[inline(always)]
+    fn held(self, s: Pair, (w, r): (Pair, f64), per_s: f64) -> Self {
+        let n = times(s, 1.0 / norm(s));
+        let along = |v: Pair| [0, 1].map(|i| v[i] - dot(n, v) * n[i]);
+        let rows = |of: [Pair; 2]| {
+            let columns = [0, 1].map(|b| along([of[0][b], of[1][b]]));
+            [0, 1].map(|a| [columns[0][a], columns[1][a]])
+        };
+        let mut bends = self.bends.map(rows);
+        for (a, row) in bends[0].iter_mut().enumerate() {
+            (0..2).for_each(|b| row[b] += per_s * n[a] * n[b]);
+        }
+        let (left, across) = (along(self.left), per_s * dot(n, w));
+        let left = [0, 1].map(|i| left[i] - across * n[i]);
+        Self { left, own: rows(self.own), bends, size: self.size.max(per_s * r) }
+    }
+}
+
 /// Solves steps.
 pub(super) struct Stepper<'a> {
     pub(super) frame: &'a PlaneFrame<'a>,
@@ -314,9 +359,10 @@ impl<'a> Stepper<'a> {
             let of = |place: usize| core::array::from_fn(|j| states[place][1 + j]);
             let free = [[of(0), of(1)], [of(d), of(d + 1)]];
             let size = frame.largest_terms(&from.x, &from.v).max(self.stop_terms(from));
+            let asks = self.asks(from, &stretch);
             let settled = linear.with_influence(length, |influence| {
                 vectorize!(self.instructions, _simd => {
-                    self.settle(&free, (stretch, size), influence, &mut forces)
+                    self.settle(&free, (&asks, size), influence, &mut forces)
                 })
             });
             if !settled {
@@ -386,6 +432,25 @@ impl<'a> Stepper<'a> {
         terms / self.frame.block_kg
     }
 
+    /// What a slip over a stretch is asked for from a state on.
+    fn asks(&self, from: &State, stretch: &Stretch) -> Asks {
+        let under = self.under(stretch);
+        let normal: [f64; NODES] = core::array::from_fn(|i| under.normal[1 + i]);
+        let stop = self.frame.stop.filter(|_| stretch.pressed);
+        let is_wall = stop.is_some_and(|stop| stop.is_rigid);
+        // Over a time that cannot be told what keeps the block on a stop is what did at its start.
+        let is_brief = stretch.step_s <= 2.0 * self.instant_s;
+        let borne = (is_wall && is_brief).then(|| self.frame.borne(from, &stretch.loads[0]));
+        Asks {
+            line: stretch.line,
+            normal,
+            kappa: normal.map(|normal| self.stiffness(normal)),
+            stop,
+            borne: borne.unwrap_or_default(),
+            held_per_s: (is_wall && !is_brief).then(|| 1.0 / stretch.step_s),
+        }
+    }
+
     /// `a` and `N` at the points of a stretch.
     #[inline(always)]
     fn under(&self, stretch: &Stretch) -> Under<POINTS> {
@@ -405,18 +470,11 @@ impl<'a> Stepper<'a> {
     fn settle(
         &self,
         free: &[[[f64; NODES]; 2]; 2],
-        (stretch, terms): (Stretch, f64),
+        (asks, terms): (&Asks, f64),
         influence: &Influence,
         forces: &mut [[f64; NODES]; 2],
     ) -> bool {
-        let frame = self.frame;
-        let under = self.under(&stretch);
-        let kappa: [f64; NODES] = core::array::from_fn(|i| self.stiffness(under.normal[1 + i]));
-        let stop = frame.stop.filter(|_| stretch.pressed);
-        // Over a time that cannot be told nothing moves across it, whatever the force.
-        let rigid = stop.filter(|stop| stop.is_rigid && stretch.step_s > 2.0 * self.instant_s);
-        let per_s = 1.0 / stretch.step_s;
-        let follows = frame.curvature_per_m > 0.0 || stop.is_some();
+        let follows = self.frame.curvature_per_m > 0.0 || asks.stop.is_some();
         let (mut last, mut newton) = (f64::INFINITY, None);
         for pass in 0..MOST_PASSES {
             let (mut change, mut size) = (0.0_f64, terms);
@@ -425,57 +483,10 @@ impl<'a> Stepper<'a> {
             let w = moved(&influence.of_w, &free[1], forces);
             let s = if follows { moved(&influence.of_s, &free[0], forces) } else { free[0] };
             for j in 0..NODES {
-                let (s, w) = ([s[0][j], s[1][j]], [w[0][j], w[1][j]]);
-                let mut r = norm(w);
-                // Along a stop that does not give way what is left of a velocity across it is rounding.
-                let along_stop = rigid.map(|_| {
-                    let t = along_wall(s);
-                    r = dot(t, w).abs();
-                    times(t, dot(t, w).signum())
-                });
-                let [f, slope] = frame.slowing_on(stretch.line, (under.normal[1 + j], r));
-                let mut force = s.map(|s| -kappa[j] * s);
-                bends[j][1] = [[kappa[j], 0.0], [0.0, kappa[j]]];
-                if f > 0.0 && r > 0.0 {
-                    let u = along_stop.unwrap_or([w[0] / r, w[1] / r]);
-                    force = [force[0] - f * u[0], force[1] - f * u[1]];
-                    let turns = if along_stop.is_none() { f / r } else { 0.0 };
-                    bends[j][0] = [0, 1].map(|a| {
-                        let across = |b: usize| if a == b { 1.0 } else { 0.0 } - u[a] * u[b];
-                        [0, 1].map(|b| turns * across(b) + slope * u[a] * u[b])
-                    });
-                }
-                if let Some(stop) = &stop {
-                    let taken = stop.force(s, w);
-                    let by = stop.slopes(s, w);
-                    for axis in 0..2 {
-                        force[axis] -= taken[axis] / frame.block_kg;
-                        for (bend, by) in bends[j].iter_mut().zip(by) {
-                            (0..2).for_each(|b| bend[axis][b] += by[axis][b] / frame.block_kg);
-                        }
-                    }
-                }
-                size = size.max(norm(force));
-                let mut left = [0, 1].map(|axis| force[axis] - forces[axis][j]);
-                if rigid.is_some() {
-                    // What is known across it is not the force but that it goes nowhere: n·w = 0.
-                    let n = times(s, 1.0 / norm(s));
-                    let along = |v: Pair| [0, 1].map(|i| v[i] - dot(n, v) * n[i]);
-                    let rows = |of: [Pair; 2]| {
-                        let columns = [0, 1].map(|b| along([of[0][b], of[1][b]]));
-                        [0, 1].map(|a| [columns[0][a], columns[1][a]])
-                    };
-                    let [by_w, by_s] = bends[j];
-                    (own[j], bends[j]) = (rows(ONE), [rows(by_w), rows(by_s)]);
-                    for (a, row) in bends[j][0].iter_mut().enumerate() {
-                        (0..2).for_each(|b| row[b] += per_s * n[a] * n[b]);
-                    }
-                    let across = per_s * dot(n, w);
-                    left = along(left);
-                    left = [0, 1].map(|i| left[i] - across * n[i]);
-                    size = size.max(per_s * r);
-                }
-                (0..2).for_each(|axis| off[2 * j + axis] = left[axis]);
+                let at = [s, w, *forces].map(|of| [of[0][j], of[1][j]]);
+                let asked = self.asked(asks, j, at);
+                (own[j], bends[j], size) = (asked.own, asked.bends, size.max(asked.size));
+                (0..2).for_each(|axis| off[2 * j + axis] = asked.left[axis]);
             }
             // A matrix is kept as long as a pass gains two digits by it.
             let kept = match newton.take() {
@@ -503,6 +514,47 @@ impl<'a> Stepper<'a> {
             last = change;
         }
         false
+    }
+
+    /// What is asked at a node where `s`, `w` and the force are known.
+    #[inline(always)]
+    fn asked(&self, asks: &Asks, j: usize, [s, w, now]: [Pair; 3]) -> Asked {
+        let (frame, kappa) = (self.frame, asks.kappa[j]);
+        let mut r = norm(w);
+        // Along a stop that does not give way what is left of a velocity across it is rounding.
+        let along_wall = asks.stop.filter(|stop| stop.is_rigid).map(|_| {
+            let (along, way) = (along_wall(s), dot(along_wall(s), w));
+            r = way.abs();
+            times(along, way.signum())
+        });
+        let [f, slope] = frame.slowing_on(asks.line, (asks.normal[j], r));
+        let mut force = [0, 1].map(|i| -kappa * s[i] - asks.borne[i]);
+        let mut bends = [[[0.0; 2]; 2], [[kappa, 0.0], [0.0, kappa]]];
+        if f > 0.0 && r > 0.0 {
+            let u = along_wall.unwrap_or([w[0] / r, w[1] / r]);
+            force = [force[0] - f * u[0], force[1] - f * u[1]];
+            let turns = if along_wall.is_none() { f / r } else { 0.0 };
+            bends[0] = [0, 1].map(|a| {
+                let across = |b: usize| if a == b { 1.0 } else { 0.0 } - u[a] * u[b];
+                [0, 1].map(|b| turns * across(b) + slope * u[a] * u[b])
+            });
+        }
+        if let Some(stop) = &asks.stop {
+            let taken = stop.force(s, w);
+            let by = stop.slopes(s, w);
+            for axis in 0..2 {
+                force[axis] -= taken[axis] / frame.block_kg;
+                for (bend, by) in bends.iter_mut().zip(by) {
+                    (0..2).for_each(|b| bend[axis][b] += by[axis][b] / frame.block_kg);
+                }
+            }
+        }
+        let left = [force[0] - now[0], force[1] - now[1]];
+        let asked = Asked { left, own: ONE, bends, size: norm(force) };
+        match asks.held_per_s {
+            Some(per_s) => asked.held(s, (w, r), per_s),
+            None => asked,
+        }
     }
 
     /// The motion with forces at the nodes, and what acts at its points.
