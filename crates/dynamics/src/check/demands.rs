@@ -154,7 +154,7 @@ impl Comparison {
     }
 
     /// A number from a least to a largest, over a peak.
-    fn within(&mut self, printed: f64, [least, most, peak]: [f64; 3], rounding: f64) {
+    pub(super) fn within(&mut self, printed: f64, [least, most, peak]: [f64; 3], rounding: f64) {
         let difference = (printed - most).max(least - printed) - rounding;
         if !(difference <= 0.0) {
             self.take(difference / peak.abs());

@@ -22,16 +22,31 @@ pub(super) struct LocalMinima {
     /// Largest value.
     peak: f64,
     least: Option<(f64, f64)>,
+    /// Least minimum, those counted that slack hides.
+    shallow: f64,
 }
 
 impl LocalMinima {
     pub(super) fn new(slack: f64) -> Self {
-        Self { slack, falling: false, turn: f64::NAN, turn_s: 0.0, peak: 0.0, least: None }
+        Self {
+            slack,
+            falling: false,
+            turn: f64::NAN,
+            turn_s: 0.0,
+            peak: 0.0,
+            least: None,
+            shallow: f64::INFINITY,
+        }
     }
 
     /// The least minimum so far, or ∞.
     pub(super) fn so_far(&self) -> f64 {
         self.least.map_or(f64::INFINITY, |(least, _)| least)
+    }
+
+    /// The least minimum so far, however little the values rise from it, or ∞.
+    pub(super) fn shallow(&self) -> f64 {
+        self.shallow
     }
 
     /// Takes the next value; the minimum that it confirms.
@@ -41,7 +56,12 @@ impl LocalMinima {
         let mut minimum = None;
         if onward || self.turn.is_nan() {
             (self.turn, self.turn_s) = (value, time_s);
-        } else if (value - self.turn).abs() > self.slack {
+            return None;
+        }
+        if self.falling {
+            self.shallow = self.shallow.min(self.turn);
+        }
+        if (value - self.turn).abs() > self.slack {
             if self.falling {
                 self.take(self.turn_s, self.turn);
                 minimum = Some(self.turn);

@@ -319,6 +319,11 @@ impl<'a> PlaneJudge<'a> {
         let off = norm([is[0] - expected[0], is[1] - expected[1]]);
         let lost = [was[0] - is[0], was[1] - is[1]];
         self.axes.heading = unit(is);
+        if let Some(heading) = self.axes.heading.filter(|_| self.mode(k) != Mode::Stick) {
+            // It may be on its way for no time at all.
+            let acting = self.acting(&after, &self.instant(self.h.time_s[k])[3]);
+            self.axes.peaks.turn(&self.tracked(), &acting, Some([heading; 2]), false);
+        }
         let f = &mut self.figures;
         f.velocity[0] = larger(f.velocity[0], off);
         for i in 0..before.x.len() {

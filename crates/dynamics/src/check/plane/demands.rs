@@ -88,7 +88,10 @@ impl<'a> PlaneJudge<'a> {
         let near = rounding.velocity_m_per_s;
         let fastest = self.axes.peaks.largest[0][VELOCITY];
         match (printed, self.axes.least_speed) {
-            (Some(printed), Some(own)) => c.number(printed, own, near, fastest),
+            (Some(printed), Some(own)) => {
+                c.within(printed, [self.axes.shallow_speed.min(own), own, fastest], near);
+            }
+            (Some(printed), None) if self.axes.shallow_speed <= printed + near => {}
             (None, Some(least)) | (Some(least), None) => {
                 c.same(least <= near.max(1e-12 * fastest));
             }

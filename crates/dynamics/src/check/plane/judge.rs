@@ -62,6 +62,8 @@ pub(super) struct Plane<'a> {
     pub(super) minima: Minima,
     /// Least local minimum of the sliding speed.
     pub(super) least_speed: Option<f64>,
+    /// The least where minima count that rounding may have made.
+    pub(super) shallow_speed: f64,
     /// The direction of the one line on which all moves, if it does: friction is along it, and no rounding turns it.
     pub(super) line: Option<Pair>,
     /// Near rest, whether the slip was straight when it came there.
@@ -99,6 +101,7 @@ impl<'a> PlaneJudge<'a> {
             event_directions: Vec::new(),
             minima: Minima::default(),
             least_speed: None,
+            shallow_speed: f64::INFINITY,
             line: None,
             near_rest: None,
             heading: None,
@@ -416,6 +419,7 @@ impl Directions for PlaneJudge<'_> {
 
     fn closest_call_of_slip(&mut self, _: usize, _: Direction) -> Option<ClosestCall> {
         let (minimum, peak) = (self.dips[0].so_far(), self.dips[0].peak());
+        self.axes.shallow_speed = self.axes.shallow_speed.min(self.dips[0].shallow());
         if minimum.is_finite() {
             let least = &mut self.axes.least_speed;
             *least = Some(least.map_or(minimum, |least| least.min(minimum)));
