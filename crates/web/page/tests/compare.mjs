@@ -1,7 +1,7 @@
 // Pin and compare, as a person uses it.
 
 import assert from "node:assert/strict";
-import { headline, settled } from "./harness.mjs";
+import { MOVING, headline, settled } from "./harness.mjs";
 import { setField } from "./fields.mjs";
 
 /** Colours in a canvas, as numbers. */
@@ -59,7 +59,7 @@ export function compare(test, on) {
       await page.getByRole("button", { name: "Remove B" }).click();
       await beside.first().waitFor({ state: "detached" });
       assert.equal(await page.locator(".plot .key li", { hasText: /^B/ }).count(), 0);
-    }));
+    }, MOVING));
 
   test("B is in the units of the page, and says when it has no answer", () =>
     on(async (page, { context }) => {

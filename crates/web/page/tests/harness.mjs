@@ -55,9 +55,12 @@ export function browser() {
   });
 }
 
-/** A page with a record of what went wrong on it. */
+/** For a test of the motion itself: elsewhere the picture stands, and what draws it leaves the processor to what is tested. */
+export const MOVING = { reducedMotion: "no-preference" };
+
+/** A page with a record of what went wrong on it; its picture stands still but where `MOVING` says otherwise. */
 export async function open(browser, url, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1300, height: 900 }, serviceWorkers: "block", ...options });
+  const context = await browser.newContext({ viewport: { width: 1300, height: 900 }, serviceWorkers: "block", reducedMotion: "reduce", ...options });
   const page = await context.newPage();
   page.setDefaultTimeout(30_000);
   const said = [];

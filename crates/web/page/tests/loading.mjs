@@ -1,7 +1,7 @@
 // How the page comes: a picture before any module, one analysis by a small one, the rest behind it.
 
 import assert from "node:assert/strict";
-import { headline, settled } from "./harness.mjs";
+import { MOVING, headline, settled } from "./harness.mjs";
 
 /** What was asked for before an instant of the page's clock, with the bytes that came. */
 const before = (page, mark) =>
@@ -19,7 +19,7 @@ export function loading(test, on, site) {
       const { asked, bytes } = await before(page, "first-picture");
       assert.ok(asked.includes("first.json") && !asked.some((name) => name.endsWith(".wasm")), `asked for ${asked}`);
       assert.ok(bytes > 20_000 && bytes <= 350_000, `${bytes} bytes`);
-    }));
+    }, MOVING));
 
   test("until a module is there the picture is that of the build, and says so; what is changed is answered then", () =>
     on(async (page) => {
@@ -51,7 +51,7 @@ export function loading(test, on, site) {
       });
       assert.deepEqual(now.slice(0, 3), shape.slice(0, 3));
       assert.ok(Math.abs(now[3] / shape[3] - 1) < 1e-4, `${now[3]} ${shape[3]}`);
-    }));
+    }, MOVING));
 
   test("one analysis is answered before the whole module is there, with its bits, and checked once it is", () =>
     on(async (page) => {
@@ -76,7 +76,7 @@ export function loading(test, on, site) {
       await page.locator("#panel-suite label.field").first().waitFor();
       await page.locator("#tab-motion").click();
       assert.match(await page.locator(".results .certificate").innerText(), /^Computed right/);
-    }));
+    }, MOVING));
 
   test("a whole module that does not come is said where it is needed, and asked for again", () =>
     on(async (page, { said }) => {
@@ -90,5 +90,5 @@ export function loading(test, on, site) {
       await settled(page);
       // The browser says itself what did not come.
       said.splice(0, said.length, ...said.filter((text) => !/ERR_FAILED|Failed to load/.test(text)));
-    }));
+    }, MOVING));
 }

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { setField, slider } from "./fields.mjs";
-import { settled } from "./harness.mjs";
+import { MOVING, settled } from "./harness.mjs";
 
 const at = (page, time) =>
   page.evaluate(async (time) => {
@@ -131,7 +131,7 @@ export function minute(test, on) {
             assert.ok((await page.evaluate(() => globalThis.slipstick.updates)) > before, `${label} is followed`);
           }
         },
-        { viewport },
+        { ...MOVING, viewport },
       ));
   }
 

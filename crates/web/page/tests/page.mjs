@@ -11,7 +11,7 @@ import { figures } from "./figures.mjs";
 import { field, setField, slider } from "./fields.mjs";
 import { minute } from "./minute.mjs";
 import { scenes } from "./scenes.mjs";
-import { browser, drop, headline, host, message, open, ran, settled, temporary } from "./harness.mjs";
+import { MOVING, browser, drop, headline, host, message, open, ran, settled, temporary } from "./harness.mjs";
 import { loading } from "./loading.mjs";
 import { report } from "./report.mjs";
 import { runs } from "./runs.mjs";
@@ -66,7 +66,7 @@ test("the first picture shows the Taft example, moving and checked", () =>
       return colours.size;
     });
     assert.ok(painted > 6, `${painted} colours`);
-  }));
+  }, MOVING));
 
 test("a slider that is dragged is followed, and checked when it rests", () =>
   on(async (page) => {
@@ -90,7 +90,7 @@ test("a slider that is dragged is followed, and checked when it rests", () =>
     assert.ok(Number(k) > 0.12 && s === k, text);
     assert.match(text, /# A building of one storey/, "comments stay");
     assert.match(await page.locator(".results .certificate").innerText(), /Computed right/);
-  }));
+  }, MOVING));
 
 test("what is shown is what the text says, in every field", () =>
   on(async (page) => {
@@ -627,7 +627,7 @@ test("a trap ends its worker only", () =>
     await setField(page, "Kinetic friction", "0.04");
     await settled(page);
     assert.notDeepEqual(await headline(page), before);
-  }));
+  }, MOVING));
 
 test("a sweep runs in slices, and can be cancelled", () =>
   on(async (page) => {
@@ -783,7 +783,7 @@ test("everything is done by keyboard", () =>
     assert.equal(await label(), "Pause");
     await page.keyboard.press("Space");
     assert.equal(await label(), "Play");
-  }));
+  }, MOVING));
 
 test("no violation of WCAG AA on any tab, light and dark, with forced colours too", () =>
   on(
@@ -827,7 +827,7 @@ figures(test, on);
 test("it opens without a network once it was open, and asks for nothing after it", async () => {
   // A host of its own, of which no other page asks.
   const site = await host(folder);
-  const opened = await open(chromium, site.url, { serviceWorkers: "allow" });
+  const opened = await open(chromium, site.url, { ...MOVING, serviceWorkers: "allow" });
   try {
     const { page, context } = opened;
     await page.evaluate(() => navigator.serviceWorker.ready);

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { ran, settled, temporary } from "./harness.mjs";
+import { MOVING, ran, settled, temporary } from "./harness.mjs";
 
 /** What the words of an answer claim of the figures of its runs. */
 const CLAIMS = {
@@ -120,7 +120,7 @@ export function scenes(test, on, site) {
             assert.ok((await page.evaluate(() => globalThis.slipstick.updates)) > before, `${id}: it is followed`);
           }
         },
-        { viewport: { width, height } },
+        { ...MOVING, viewport: { width, height } },
       ));
   }
 
@@ -151,7 +151,7 @@ export function scenes(test, on, site) {
       await page.keyboard.press("Shift+Tab");
       await page.keyboard.press("Space");
       assert.notEqual(await label(), before);
-    }));
+    }, MOVING));
 
   test("a scene opens by its short link, in the frame of another page too, and Close ends it", () =>
     on(
@@ -184,7 +184,7 @@ export function scenes(test, on, site) {
         assert.ok(!(await frame.locator(".tabs").isVisible()), "the tabs are the whole page's");
         await host.close();
       },
-      {},
+      MOVING,
       `${site.url}#scene.resonance`,
     ));
 
