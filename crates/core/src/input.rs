@@ -6,7 +6,7 @@
 //! paths, because all three read one description.
 
 use crate::error::{ChoiceError, InputError, MotionError, Place};
-use crate::hash::sha256_hex;
+use crate::hash::{SHORT, sha256_hex};
 use crate::model::Model;
 use crate::response::{DemandColumn, DemandOf, Method};
 
@@ -42,7 +42,8 @@ pub use json_schema::{json_schema, plan_json_schema};
 pub use keys::MAX_STOREYS;
 pub use mapping::{Channel, ColumnRef, MappedColumn, Mapping, Zero};
 pub use modal::{
-    ModalOptions, ModalPoint, ModalRow, ModalTable, OPENSEES_TITLE, Share, read_modes,
+    EigenMatrices, ModalOptions, ModalPoint, ModalRow, ModalTable, OPENSEES_TITLE, Share,
+    read_modes,
 };
 pub use motion::{MotionSource, PairOf, RecordAlongY, RecordSource, Scale, stem};
 pub use overrides::{InputValue, Override, dimension_of, unit_of_bare};
@@ -398,7 +399,7 @@ impl Analysis {
     #[must_use]
     pub fn hash(&self) -> String {
         let mut hash = sha256_hex(self.to_toml(None).as_bytes());
-        hash.truncate(12);
+        hash.truncate(SHORT);
         hash
     }
 

@@ -328,7 +328,7 @@ impl Study {
                     return Err(refuse("levels", expected, "none".to_owned()));
                 }
                 if let Some((row, level)) = not(&levels, |level| level.is_finite() && level > 0.0) {
-                    return Err(refuse("levels", "levels > 0", format!("{level} in row {row}")));
+                    return Err(refuse("scale-to", "levels > 0", format!("{level} in row {row}")));
                 }
                 let mut factors = Vec::with_capacity(records * designs);
                 for record in &self.records {

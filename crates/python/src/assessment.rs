@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use slipstick::assessment::AssessmentError;
-use slipstick::assessment::suite::Suite;
+use slipstick::assessment::suite::{Recorded, Suite};
 use slipstick::notice::Notice;
-use slipstick::record::Units;
+use slipstick::record::Origin;
 use slipstick::requests::{Answer, Kind, On, Runs};
 use slipstick::study::{Certified, Worst};
 use slipstick::units::Dimension;
@@ -23,7 +23,7 @@ use crate::model::Model;
 use crate::motion::Motion;
 use crate::requests::{FieldTexts, asked};
 use crate::table::Table;
-use crate::values::{channel_of, quantity};
+use crate::values::{channel_of, quantity, record_units};
 use crate::work::followed;
 
 /// A result as people and programs read it.
@@ -38,7 +38,7 @@ impl Assessment {
     fn new(py: Python<'_>, kind: Kind, answer: Answer) -> PyResult<Self> {
         let call = match kind {
             Kind::Spectrum => "slipstick.spectrum(model, records, over)",
-            Kind::Sensitivity => "slipstick.sensitivity(model, motions, paths)",
+            Kind::Sensitivity => "slipstick.sensitivity(model, records, paths)",
             Kind::Ida => "slipstick.ida(model, records)",
             Kind::Design => "slipstick.design(model, records, vary)",
             Kind::Fragility => "slipstick.fragility(table)",
@@ -95,15 +95,11 @@ pub(crate) fn read_suite(
     patterns: Vec<String>,
     y: Vec<String>,
     channel: Option<&Bound<'_, PyAny>>,
-    units: Option<&str>,
+    units: Option<&Bound<'_, PyAny>>,
     dt: Option<&Bound<'_, PyAny>>,
     vertical: Vec<String>,
 ) -> PyResult<Vec<(String, Motion)>> {
-    let units = units.map(|text| {
-        let expected = "units of records, such as \"g\" or \"cm/s2\"";
-        Units::parse(text).ok_or_else(|| of_argument(py, "units", expected, text))
-    });
-    let units = units.transpose()?;
+    let units = units.map(record_units).transpose()?;
     let dt_s = dt.map(|dt| quantity("dt", dt, Dimension::Time, true)).transpose()?;
     let channel = channel.map(channel_of).transpose()?;
     let asked = SuiteRequest { patterns, along_y: y, vertical, ..SuiteRequest::default() };
@@ -183,7 +179,9 @@ pub(crate) fn assess(
 
 /// Models on the same records, side by side.
 #[pyfunction]
-#[pyo3(signature = (models, records, second, given, *, target = None, jobs = None, progress = None))]
+#[pyo3(signature = (
+    models, records, second, given, *, target = None, check = true, jobs = None, progress = None
+))]
 #[expect(clippy::too_many_arguments, reason = "the package calls it")]
 pub(crate) fn suite(
     py: Python<'_>,
@@ -192,10 +190,12 @@ pub(crate) fn suite(
     second: Named,
     given: FieldTexts,
     target: Option<PathBuf>,
+    check: bool,
     jobs: Option<i64>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Assessment> {
     let asked = asked(py, Kind::Suite.name(), given)?;
+    let asked = if check { asked } else { asked.uncertified() };
     let target = target.map(|path| {
         let read = read_target(&path).map_err(|found| of_argument(py, "target", TARGET, &found));
         read.map(|(spectrum, _)| (path.display().to_string(), spectrum))
@@ -211,15 +211,22 @@ pub(crate) fn suite(
 /// Runs, how many of them were certified, and the worst of those.
 type Counted = (u64, u64, Option<(String, String, f64)>);
 
+/// What runs were made of: the hash of the model, and of every motion its name, hash and peak acceleration in m/s².
+type MadeOf = (String, Vec<(String, String, f64)>);
+
 /// A lognormal fragility of a table, of which the limit may be known, and how many of its runs were certified.
 #[pyfunction]
-#[pyo3(signature = (table, given, *, limit = None, certified = None, jobs = None, progress = None))]
+#[pyo3(signature = (
+    table, given, *, limit = None, certified = None, made_of = None, jobs = None, progress = None
+))]
+#[expect(clippy::too_many_arguments, reason = "the package calls it")]
 pub(crate) fn fit(
     py: Python<'_>,
     table: &Table,
     given: FieldTexts,
     limit: Option<f64>,
     certified: Option<Counted>,
+    made_of: Option<MadeOf>,
     jobs: Option<i64>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Assessment> {
@@ -232,7 +239,20 @@ pub(crate) fn fit(
     let certified = certified.as_ref();
     let runs = Runs { name: "table", source: "table", table: &table.0, limit, certified };
     let answer = followed(py, jobs, progress, |engine| asked.fit(&runs, engine))?;
-    Assessment::new(py, asked.kind(), answer.map_err(|error| of_assessment(py, &error))?)
+    let mut answer = answer.map_err(|error| of_assessment(py, &error))?;
+    if let Some((model_hash, motions)) = made_of {
+        let of = |(name, motion_hash, pga_m_per_s2)| Recorded {
+            name,
+            motion_hash: Some(motion_hash),
+            pga_m_per_s2,
+            origin: Origin::default(),
+            factor: None,
+            notices: Vec::new(),
+        };
+        answer.model_hash = Some(model_hash);
+        answer.records = motions.into_iter().map(of).collect();
+    }
+    Assessment::new(py, asked.kind(), answer)
 }
 
 /// Reads the runs of a table or of a command's folder, the limit on a demand that they were made for, and how many of

@@ -28,7 +28,7 @@ mod _core {
     use super::motion::Motion;
     #[pymodule_export]
     use super::requests::{
-        check, fields, levels, schema, unit_at, unit_in, unit_of_measure, units,
+        check, fields, keys_of_modes, levels, schema, unit_at, unit_in, unit_of_measure, units,
     };
     #[pymodule_export]
     use super::response::{Response, run};
@@ -39,7 +39,7 @@ mod _core {
     #[pymodule_export]
     use super::table::Table;
     #[pymodule_export]
-    use super::values::as_plain;
+    use super::values::{as_described, as_plain, nearest};
     use pyo3::prelude::*;
 
     #[pymodule_init]

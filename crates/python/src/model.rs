@@ -1,7 +1,7 @@
 //! `Model`.
 
 use std::hash::{DefaultHasher, Hash, Hasher};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
@@ -15,7 +15,7 @@ use slipstick_report::opensees::script;
 
 use crate::errors::{of_argument, of_file, of_input};
 use crate::motion::Motion;
-use crate::values::{quantity, written};
+use crate::values::{count_in, described, keys_in, number_in, path_in, quantity, text_in, written};
 
 /// A checked model: block, slider, storeys, perhaps its own motion and the method.
 ///
@@ -82,6 +82,13 @@ impl Model {
         Path::new(&self.source)
     }
 
+    /// A model of the text of a model file.
+    fn of_toml(py: Python<'_>, text: &str, source: &str) -> PyResult<Self> {
+        let analysis = input::parse(source, text, &[]).map_err(|error| of_input(py, &error))?;
+        let source = if source.is_empty() { String::new() } else { absolute(source) };
+        Ok(Self { analysis, source, text: text.to_owned() })
+    }
+
     /// What makes two models the same: the values of all keys, and where their record is looked for.
     fn identity(&self) -> (String, &Path) {
         let has_record = matches!(self.analysis.motion, Some(MotionSource::Record(_)));
@@ -135,6 +142,9 @@ fn given_once(
     Ok(())
 }
 
+/// What is expected where keys of a model stand.
+const KEYS: &str = "keys of a model with their values, {\"slider.radius\": \"2 m\"}";
+
 /// A path from here, as long as there is one, so that it holds after a change of folder.
 fn absolute(path: &str) -> String {
     let whole = std::path::absolute(path);
@@ -147,11 +157,12 @@ impl Model {
     #[pyo3(signature = (values = None, **tables))]
     fn new(
         py: Python<'_>,
-        values: Option<&Bound<'_, PyDict>>,
+        values: Option<&Bound<'_, PyAny>>,
         tables: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         let mut given = Vec::new();
-        for values in values.into_iter().chain(tables) {
+        let values = values.map(|values| keys_in("values", KEYS, values)).transpose()?;
+        for values in values.iter().chain(tables) {
             flattened("", values, &mut given)?;
         }
         let text = |(path, text)| Some((path, InputValue::Text(text?)));
@@ -176,7 +187,8 @@ impl Model {
     /// OSError
     ///     For a file that cannot be read: ``FileNotFoundError`` and its kin.
     #[staticmethod]
-    fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+    fn read(py: Python<'_>, path: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let path = path_in("path", path)?;
         let limit = input::MAX_TEXT_BYTES as u64;
         let bytes = read_at_most(&path, limit).map_err(|error| of_file(py, &error))?;
         let source = path.display().to_string();
@@ -206,11 +218,11 @@ impl Model {
     /// InputError
     ///     With line and column of the fault.
     #[staticmethod]
-    #[pyo3(signature = (text, source = "model.toml"))]
-    fn from_toml(py: Python<'_>, text: &str, source: &str) -> PyResult<Self> {
-        let analysis = input::parse(source, text, &[]).map_err(|error| of_input(py, &error))?;
-        let source = if source.is_empty() { String::new() } else { absolute(source) };
-        Ok(Self { analysis, source, text: text.to_owned() })
+    #[pyo3(signature = (text, source = None), text_signature = "(text, source=\"model.toml\")")]
+    fn from_toml(text: &Bound<'_, PyAny>, source: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        let py = text.py();
+        let source = source.map_or(Ok("model.toml".to_owned()), |of| text_in("source", of))?;
+        Self::of_toml(py, &text_in("text", text)?, &source)
     }
 
     /// Give an example, the one that ``slipstick init --example`` writes.
@@ -232,13 +244,14 @@ impl Model {
     /// >>> ss.run(ss.Model.example("mock-up")).holds
     /// True
     #[staticmethod]
-    fn example(py: Python<'_>, name: &str) -> PyResult<Self> {
+    fn example(py: Python<'_>, name: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let name = &*text_in("name", name)?;
         let Some(text) = examples::text(name) else {
             let names: Vec<String> = examples::names().map(|name| format!("{name:?}")).collect();
             let expected = format!("one of {}", names.join(", "));
             return Err(of_argument(py, "name", &expected, &format!("{name:?}")));
         };
-        Self::from_toml(py, &text, "")
+        Self::of_toml(py, &text, "")
     }
 
     /// Take the structure from an eigenvalue analysis of OpenSees that stands in memory.
@@ -265,20 +278,35 @@ impl Model {
     /// InputError
     ///     For what makes no model, and for a unit or a direction that is none.
     #[staticmethod]
-    #[pyo3(signature = (ops, values, *, mass_unit, nodes, damping_ratio, modes = None, direction = "x"))]
+    #[pyo3(
+        signature = (ops, values, *, mass_unit, nodes, damping_ratio, modes = None, direction = None),
+        text_signature = "(ops, values, *, mass_unit, nodes, damping_ratio, modes=None, direction=\"x\")"
+    )]
     #[allow(clippy::too_many_arguments)]
     fn from_opensees(
         ops: &Bound<'_, PyAny>,
-        values: &Bound<'_, PyDict>,
+        values: &Bound<'_, PyAny>,
         mass_unit: &Bound<'_, PyAny>,
-        nodes: &Bound<'_, PyDict>,
-        damping_ratio: f64,
-        modes: Option<usize>,
-        direction: &str,
+        nodes: &Bound<'_, PyAny>,
+        damping_ratio: &Bound<'_, PyAny>,
+        modes: Option<&Bound<'_, PyAny>>,
+        direction: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let py = ops.py();
+        if !ops.hasattr("modalProperties")? {
+            let expected = "the module openseespy.opensees with a model in it";
+            return Err(of_argument(py, "ops", expected, &described(ops)));
+        }
+        let nodes = keys_in("nodes", "tags of nodes by names, {\"Roof\": 40}", nodes)?;
+        for (name, node) in &nodes {
+            text_in("nodes", &name)?;
+            count_in("nodes", &node)?;
+        }
+        let damping_ratio = number_in("damping_ratio", damping_ratio)?;
+        let modes = modes.map(|count| count_in("modes", count)).transpose()?;
+        let direction = direction.map_or(Ok("x".to_owned()), |of| text_in("direction", of))?;
         let unit_kg = quantity("mass_unit", mass_unit, Dimension::Mass, false)?;
-        if !["x", "y"].contains(&direction) {
+        if !["x", "y"].contains(&&*direction) {
             return Err(of_argument(py, "direction", "\"x\" or \"y\"", &format!("{direction:?}")));
         }
         let asked = (ops, unit_kg, nodes, damping_ratio, modes, direction);
@@ -288,7 +316,7 @@ impl Model {
             Self::new(py, Some(values), None)?.text,
             structure.extract::<String>()?
         );
-        Self::from_toml(py, &text, "")
+        Self::of_toml(py, &text, "")
     }
 
     /// Take the structure by its modes from the matrices of an eigenvalue analysis on a fixed base.
@@ -337,8 +365,8 @@ impl Model {
         omega: &Bound<'_, PyAny>,
         damping: &Bound<'_, PyAny>,
         mass: &Bound<'_, PyAny>,
-        values: Option<&Bound<'_, PyDict>>,
-        points: Option<&Bound<'_, PyDict>>,
+        values: Option<&Bound<'_, PyAny>>,
+        points: Option<&Bound<'_, PyAny>>,
         influence: Option<&Bound<'_, PyAny>>,
         tables: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
@@ -352,7 +380,7 @@ impl Model {
         if with_structure.contains("structure")? {
             return Err(of_argument(py, "structure", "that of the modes alone", "another"));
         }
-        with_structure.set_item("structure", structure)?;
+        with_structure.update(structure.cast::<PyDict>()?.as_mapping())?;
         Self::new(py, values, Some(&with_structure))
     }
 
@@ -381,9 +409,9 @@ impl Model {
     /// >>> pendulum = model.with_({"slider.radius": "2 m"})
     /// >>> pendulum.with_({"slider.radius": None}) == model
     /// True
-    fn with_(&self, values: &Bound<'_, PyDict>) -> PyResult<Self> {
+    fn with_(&self, values: &Bound<'_, PyAny>) -> PyResult<Self> {
         let mut given = Vec::new();
-        flattened("", values, &mut given)?;
+        flattened("", &keys_in("values", KEYS, values)?, &mut given)?;
         let one = |(path, text): &(String, Option<String>)| match text {
             Some(text) => Override::text_value(path, text).map(Override::growing),
             None => Override::removal(path),
@@ -405,6 +433,12 @@ impl Model {
     #[getter(name)]
     fn own_name(&self) -> Option<&str> {
         self.analysis.name.as_deref()
+    }
+
+    /// A short hash of the values of all keys but those of its motion: what summaries call ``model_hash``.
+    #[getter]
+    fn digest(&self) -> String {
+        self.analysis.hash()
     }
 
     /// Number of storeys.
@@ -434,7 +468,8 @@ impl Model {
     /// ------
     /// InputError
     ///     For a path that no model has, with the nearest.
-    fn value(&self, py: Python<'_>, path: &str) -> PyResult<Option<f64>> {
+    fn value(&self, py: Python<'_>, path: &Bound<'_, PyAny>) -> PyResult<Option<f64>> {
+        let path = &*text_in("path", path)?;
         Override::removal(path).map_err(|error| of_input(py, &error))?;
         Ok(self.analysis.value(path))
     }

@@ -6,8 +6,9 @@ use std::path::PathBuf;
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyFloat};
+use pyo3::types::{PyDict, PyFloat, PyString, PyTuple};
 use slipstick::error::MotionError;
+use slipstick::hash::motion_hash;
 use slipstick::input::PairOf;
 use slipstick::input::loaded::Loaded;
 use slipstick::motion::{GroundMotion, Quantity};
@@ -20,7 +21,10 @@ use slipstick_report::records::Histories;
 
 use crate::errors::{Escaped, of_argument, of_file, of_motion, warn_severe};
 use crate::signal;
-use crate::values::{accelerations, channel_of, factor_of, quantity, samples};
+use crate::values::{
+    accelerations, channel_of, count_in, described, number_in, path_in, quantity, record_units,
+    samples, text_in, texts_in,
+};
 
 /// A ground motion, linear between its samples.
 ///
@@ -121,9 +125,11 @@ impl Motion {
         y: Option<&Bound<'_, PyAny>>,
         dt: Option<&Bound<'_, PyAny>>,
         times_s: Option<&Bound<'_, PyAny>>,
-        units: Option<&str>,
+        units: Option<&Bound<'_, PyAny>>,
         vertical: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
+        let units = units.map(|text| text_in("units", text)).transpose()?;
+        let units = units.as_deref();
         let (horizontal, unit) = accelerations("acceleration", acceleration, units)?;
         let beside = |name: &str, values: Option<&Bound<'_, PyAny>>| -> PyResult<_> {
             let Some(values) = values else { return Ok(None) };
@@ -165,19 +171,17 @@ impl Motion {
     #[pyo3(signature = (path, *, y = None, channel = None, units = None, dt = None, vertical = None))]
     fn read(
         py: Python<'_>,
-        path: PathBuf,
-        y: Option<PathBuf>,
+        path: &Bound<'_, PyAny>,
+        y: Option<&Bound<'_, PyAny>>,
         channel: Option<&Bound<'_, PyAny>>,
-        units: Option<&str>,
+        units: Option<&Bound<'_, PyAny>>,
         dt: Option<&Bound<'_, PyAny>>,
-        vertical: Option<PathBuf>,
+        vertical: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let units = match units {
-            None => None,
-            Some(text) => Some(Units::parse(text).ok_or_else(|| {
-                of_argument(py, "units", "units of a record, such as \"g\" or \"cm/s2\"", text)
-            })?),
-        };
+        let path = path_in("path", path)?;
+        let y = y.map(|path| path_in("y", path)).transpose()?;
+        let vertical = vertical.map(|path| path_in("vertical", path)).transpose()?;
+        let units = units.map(record_units).transpose()?;
         let dt_s = dt.map(|dt| quantity("dt", dt, Dimension::Time, true)).transpose()?;
         let channel = channel.map(channel_of).transpose()?;
         let vertical = vertical.map(|path| VerticalRequest { path, channel: None, factor: 1.0 });
@@ -212,7 +216,8 @@ impl Motion {
     ///     For traces of several stations or times, gaps, and values without units.
     #[staticmethod]
     #[pyo3(signature = (stream, *, units = None))]
-    fn from_obspy(stream: &Bound<'_, PyAny>, units: Option<&str>) -> PyResult<Self> {
+    fn from_obspy(stream: &Bound<'_, PyAny>, units: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        let units = units.map(|text| text_in("units", text)).transpose()?;
         let made =
             stream.py().import("slipstick._obspy")?.call_method1("motion", (stream, units))?;
         Ok(made.cast::<Self>()?.get().clone())
@@ -250,11 +255,19 @@ impl Motion {
     /// units
     ///     Units of its values.
     #[staticmethod]
-    #[pyo3(signature = (signal, *, units = "m/s2"))]
-    fn from_eqsig(signal: &Bound<'_, PyAny>, units: &str) -> PyResult<Self> {
-        let dt = signal.getattr("dt")?;
-        let values = signal.getattr("values")?;
-        Self::new(signal.py(), &values, None, Some(&dt), None, Some(units), None)
+    #[pyo3(signature = (signal, *, units = None), text_signature = "(signal, *, units=\"m/s2\")")]
+    fn from_eqsig(signal: &Bound<'_, PyAny>, units: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        let py = signal.py();
+        let part = |name: &str| {
+            let expected = "a signal of eqsig, with its values and its dt";
+            signal
+                .getattr(name)
+                .map_err(|_| of_argument(py, "signal", expected, &described(signal)))
+        };
+        let (dt, values) = (part("dt")?, part("values")?);
+        let usual = PyString::new(py, "m/s2").into_any();
+        let units = units.unwrap_or(&usual);
+        Self::new(py, &values, None, Some(&dt), None, Some(units), None)
     }
 
     /// Scale the motion, all its components together.
@@ -298,7 +311,7 @@ impl Motion {
             return Err(of_argument(py, "periods", "a spectrum beside them", &periods));
         }
         let (name, given, factor) = match (factor, pga) {
-            (Some(given), None) => ("factor", given, factor_of(given)?),
+            (Some(given), None) => ("factor", given, number_in("factor", given)?),
             (None, Some(given)) => {
                 let peak = quantity("pga", given, Dimension::Acceleration, true)?;
                 let factor = motion.factor_to_peak(peak).map_err(|error| {
@@ -355,7 +368,7 @@ impl Motion {
             return Err(of_argument(py, "rotated", expected, "one in one"));
         }
         let angle_rad = quantity("angle", angle, Dimension::Angle, false)?;
-        let scale_y = scale_y.map_or(Ok(1.0), factor_of)?;
+        let scale_y = scale_y.map_or(Ok(1.0), |of| number_in("scale_y", of))?;
         Self::derived(py, self.0.turned(scale_y, angle_rad), self)
     }
 
@@ -386,8 +399,12 @@ impl Motion {
     /// >>> found["pga_m_per_s2"], found["Sa(1 s)"] > 0.0
     /// (1.0, True)
     #[pyo3(signature = (*names))]
-    fn measures<'py>(&self, py: Python<'py>, names: Vec<String>) -> PyResult<Bound<'py, PyDict>> {
-        signal::measures(py, self, names)
+    fn measures<'py>(
+        &self,
+        py: Python<'py>,
+        names: &Bound<'py, PyTuple>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        signal::measures(py, self, texts_in("names", names)?)
     }
 
     /// Compute the elastic response spectrum, exactly between samples too, as ``slipstick record spectrum`` does.
@@ -467,8 +484,8 @@ impl Motion {
     /// >>> motion.processed("remove mean", "scale 2").acceleration_m_per_s2.tolist()
     /// [-4.0, -2.0, 6.0]
     #[pyo3(signature = (*steps))]
-    fn processed(&self, py: Python<'_>, steps: Vec<String>) -> PyResult<Self> {
-        signal::processed(py, self, "steps", &steps)
+    fn processed(&self, py: Python<'_>, steps: &Bound<'_, PyTuple>) -> PyResult<Self> {
+        signal::processed(py, self, "steps", &texts_in("steps", steps)?)
     }
 
     /// Filter all components by a Butterworth filter that runs forwards and backwards.
@@ -484,14 +501,18 @@ impl Motion {
     /// ------
     /// InputError
     ///     For neither, for corners that cannot be, and for uneven samples.
-    #[pyo3(signature = (*, high_pass = None, low_pass = None, order = 4))]
+    #[pyo3(
+        signature = (*, high_pass = None, low_pass = None, order = None),
+        text_signature = "($self, *, high_pass=None, low_pass=None, order=4)"
+    )]
     fn filter(
         &self,
         py: Python<'_>,
         high_pass: Option<&Bound<'_, PyAny>>,
         low_pass: Option<&Bound<'_, PyAny>>,
-        order: usize,
+        order: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
+        let order = order.map_or(Ok(4), |order| count_in("order", order))?;
         let corner = |name: &str, given: Option<&Bound<'_, PyAny>>| {
             given.map(|given| quantity(name, given, Dimension::Frequency, true)).transpose()
         };
@@ -512,8 +533,9 @@ impl Motion {
     /// ----------
     /// degree
     ///     0 for the mean, 1 for a straight line, at most 10.
-    #[pyo3(signature = (degree = 1))]
-    fn baseline(&self, py: Python<'_>, degree: usize) -> PyResult<Self> {
+    #[pyo3(signature = (degree = None), text_signature = "($self, degree=1)")]
+    fn baseline(&self, py: Python<'_>, degree: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        let degree = degree.map_or(Ok(1), |degree| count_in("degree", degree))?;
         signal::processed(py, self, "degree", &[format!("remove polynomial {degree}")])
     }
 
@@ -548,7 +570,8 @@ impl Motion {
     ///     For what the format cannot hold: uneven samples in AT2 and SMC.
     /// OSError
     ///     For a file that cannot be written.
-    fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<PathBuf> {
+    fn write(&self, py: Python<'_>, path: &Bound<'_, PyAny>) -> PyResult<PathBuf> {
+        let path = path_in("path", path)?;
         signal::write(py, self, &path)?;
         Ok(path)
     }
@@ -744,6 +767,12 @@ impl Motion {
             said.set_item("azimuth_y_deg", y.azimuth_deg)?;
         }
         Ok(said)
+    }
+
+    /// A short hash of its samples: what summaries call ``motion_hash``.
+    #[getter]
+    fn digest(&self) -> String {
+        motion_hash(&self.0.motion)
     }
 
     fn __len__(&self) -> usize {

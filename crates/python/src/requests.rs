@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 use slipstick::assessment::grid;
 use slipstick::error::{ChoiceError, MeasureError};
-use slipstick::input::{self, Override, dimension_of, unit_of_bare};
+use slipstick::input::{self, EigenMatrices, Override, dimension_of, unit_of_bare};
 use slipstick::motion::intensity::LevelMeasure;
 use slipstick::requests::{Field, FrontEnd, Kind, Request, Takes};
 use slipstick::units::{Dimension, Unit, all};
@@ -79,9 +79,27 @@ pub(crate) fn level_measure(py: Python<'_>, name: &str) -> PyResult<LevelMeasure
 #[pyfunction]
 pub(crate) fn levels(py: Python<'_>, text: &str, measure: &str) -> PyResult<Vec<String>> {
     let measure = level_measure(py, measure)?;
-    let levels = grid::levels("levels", text, &measure.measure);
+    let levels = grid::levels("scale_to", text, &measure.measure);
     let levels = levels.map_err(|error| of_assessment(py, &error))?;
     Ok(levels.iter().map(|level| format!("{level:?} {}", measure.unit())).collect())
+}
+
+/// The table `[structure]` of the matrices of an eigenvalue analysis in SI, as paths of its keys with their values.
+#[pyfunction]
+#[pyo3(name = "keys_of_modes")]
+pub(crate) fn keys_of_modes(
+    py: Python<'_>,
+    shapes: Vec<Vec<f64>>,
+    omega_rad_per_s: Vec<f64>,
+    damping_ratios: Vec<f64>,
+    mass_kg: Vec<Vec<f64>>,
+    influence: Vec<f64>,
+    points: Vec<(String, usize)>,
+) -> PyResult<Vec<(String, String)>> {
+    let matrices =
+        EigenMatrices { shapes, omega_rad_per_s, damping_ratios, mass_kg, influence, points };
+    let modes = matrices.modes().map_err(|error| of_choice(py, &error))?;
+    Ok(modes.to_keys())
 }
 
 /// The SI unit of a measure that records are scaled to.

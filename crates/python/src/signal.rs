@@ -17,7 +17,6 @@ use slipstick::motion::{
     FourierSpectrum, GroundMotion, Quantity, Spectrum, USUAL_PERIODS, logarithmic_periods, spectrum,
 };
 use slipstick::progress::Cancel;
-use slipstick::record::Units;
 use slipstick::requests::{code_spectrum, periods};
 use slipstick::units::Dimension;
 use slipstick_files::{
@@ -29,7 +28,7 @@ use slipstick_report::records::{fourier_table, spectrum_table};
 use crate::errors::{of_argument, of_choice, of_file, of_motion};
 use crate::motion::Motion;
 use crate::table::Table;
-use crate::values::{plain, quantity, samples};
+use crate::values::{plain, quantity, record_units, samples};
 use crate::work::on_samples;
 
 /// A table as the package has it.
@@ -44,7 +43,9 @@ fn several(name: &str, value: &Bound<'_, PyAny>, dimension: Dimension) -> PyResu
     if value.is_instance_of::<PyString>() || plain(name, value)?.is_some() {
         return Ok(vec![one(value)?]);
     }
-    value.try_iter()?.map(|value| one(&value?)).collect()
+    // What is no list has no items, and is told as one value that is none.
+    let Ok(values) = value.try_iter() else { return Ok(vec![one(value)?]) };
+    values.map(|value| one(&value?)).collect()
 }
 
 /// The one component of a motion, which a spectrum is of.
@@ -132,10 +133,10 @@ pub(crate) fn response_spectrum<'py>(
         number.trim_end().parse::<f64>().map(|number| number / part).map_err(|_| found())
     };
     let single = damping.is_instance_of::<PyString>() || plain("damping", damping)?.is_some();
-    let damping: Vec<f64> = if single {
-        vec![ratio(damping)?]
-    } else {
-        damping.try_iter()?.map(|value| ratio(&value?)).collect::<PyResult<_>>()?
+    let listed = if single { None } else { damping.try_iter().ok() };
+    let damping: Vec<f64> = match listed {
+        None => vec![ratio(damping)?],
+        Some(ratios) => ratios.map(|value| ratio(&value?)).collect::<PyResult<_>>()?,
     };
     let motion = motion.clone();
     let found = on_samples(py, motion.len(), move |go_on| {
@@ -444,14 +445,10 @@ pub(crate) fn integral(motion: &Motion, quantity: Quantity) -> Vec<f64> {
 pub(crate) fn read_channels<'py>(
     py: Python<'py>,
     path: PathBuf,
-    units: Option<&str>,
+    units: Option<&Bound<'py, PyAny>>,
     dt: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let units = units.map(|text| {
-        let expected = "units of a record, such as \"g\" or \"cm/s2\"";
-        Units::parse(text).ok_or_else(|| of_argument(py, "units", expected, text))
-    });
-    let units = units.transpose()?;
+    let units = units.map(record_units).transpose()?;
     let dt_s = dt.map(|dt| quantity("dt", dt, Dimension::Time, true)).transpose()?;
     let options = RecordOptions { units, dt_s, ..RecordOptions::default() };
     let names = py.detach(|| {

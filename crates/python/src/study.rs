@@ -97,15 +97,15 @@ fn scale_of_designs(
     levels: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Option<DesignScale>> {
     match (scale, levels) {
-        (Some(_), Some(_)) => Err(of_argument(py, "scale", "a scale or levels", "both")),
+        (Some(_), Some(_)) => Err(of_argument(py, "scale", "scale or scale_to", "both")),
         (_, None) if measure.is_some() => {
             let found = measure.unwrap_or_default();
-            Err(of_argument(py, "measure", "levels beside it", &format!("{found:?}")))
+            Err(of_argument(py, "measure", "scale_to beside it", &format!("{found:?}")))
         }
         (Some(scale), None) => Ok(Some(DesignScale::Factors(numbers("scale", scale, None)?))),
         (None, Some(levels)) => {
             let measure = level_measure(py, measure.unwrap_or("PGA"))?;
-            let levels = numbers_in("levels", levels, measure.unit())?;
+            let levels = numbers_in("scale_to", levels, measure.unit())?;
             Ok(Some(DesignScale::Levels(measure, levels)))
         }
         (None, None) => Ok(None),
@@ -115,7 +115,7 @@ fn scale_of_designs(
 /// Demands of designs, each on all records: one row a run, records the slowest.
 #[pyfunction]
 #[pyo3(signature = (
-    model, records, designs, *, scale = None, measure = None, levels = None, one_of = None, jobs = None,
+    model, records, designs, *, scale = None, measure = None, scale_to = None, one_of = None, jobs = None,
     progress = None
 ))]
 #[expect(clippy::too_many_arguments, reason = "the package calls it")]
@@ -126,7 +126,7 @@ pub(crate) fn demands(
     designs: Vec<(String, Bound<'_, PyAny>)>,
     scale: Option<&Bound<'_, PyAny>>,
     measure: Option<&str>,
-    levels: Option<&Bound<'_, PyAny>>,
+    scale_to: Option<&Bound<'_, PyAny>>,
     one_of: Option<usize>,
     jobs: Option<i64>,
     progress: Option<Py<PyAny>>,
@@ -144,7 +144,7 @@ pub(crate) fn demands(
             return Err(of_argument(py, path, &expected, &values.len().to_string()));
         }
     }
-    let scale = scale_of_designs(py, scale, measure, levels)?;
+    let scale = scale_of_designs(py, scale, measure, scale_to)?;
     let mut plan = Plan::listed(&paths, !records.is_empty()).map_err(|e| of_input(py, &e))?;
     plan.bound = model.analysis.friction_bounds.map(|_| "nominal");
     let record = |(name, Motion(read)): (String, Motion)| Record::read(name, read.loaded, None);

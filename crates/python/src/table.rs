@@ -1,7 +1,6 @@
 //! `Table`: columns that every library of data frames takes.
 
 use std::borrow::Cow;
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
@@ -18,6 +17,7 @@ use slipstick::table::{self, Cells, Column};
 use slipstick_files::{read_table, to_csv, to_parquet, write_whole};
 
 use crate::errors::{of_argument, of_file};
+use crate::values::{path_in, text_in};
 
 /// Columns as the package wraps them.
 #[pyclass(module = "slipstick._core", frozen)]
@@ -91,7 +91,12 @@ impl Table {
     }
 
     /// A column: an array of doubles where it holds numbers, else a list.
-    fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+    fn __getitem__<'py>(
+        &self,
+        py: Python<'py>,
+        name: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let name: &str = &text_in("column", name)?;
         let column = self.0.columns.iter().find(|column| column.name == name);
         let column = column.ok_or_else(|| {
             let names = self.0.columns.iter().map(|column| column.name.as_str());
@@ -113,7 +118,8 @@ impl Table {
     }
 
     /// Write the table as a file, CSV or Parquet by the end of its name.
-    fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+    fn write(&self, py: Python<'_>, path: &Bound<'_, PyAny>) -> PyResult<()> {
+        let path = path_in("path", path)?;
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         let written = match ending.as_deref() {
             Some("csv") => write_whole(&path, to_csv(&self.0).as_bytes()),
@@ -133,7 +139,8 @@ impl Table {
 
     /// Read a table in CSV or Parquet.
     #[staticmethod]
-    fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+    fn read(py: Python<'_>, path: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let path = path_in("path", path)?;
         let read = py.detach(|| read_table(&[path]));
         read.map(|read| Self(read.table)).map_err(|error| of_file(py, &error))
     }

@@ -1,8 +1,11 @@
 //! Values of Python: numbers of every kind, quantities, arrays.
 
+use std::path::PathBuf;
+
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyFloat, PyInt, PyString};
+use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyMapping, PyString, PyTuple};
+use slipstick::error::similar;
 use slipstick::input::unit_of_bare;
 use slipstick::record::{Quantity, Units};
 use slipstick::units::{Dimension, parse_quantity, parse_unit};
@@ -124,6 +127,15 @@ pub(crate) fn samples(name: &str, values: &Bound<'_, PyAny>) -> PyResult<Vec<f64
     Ok(array.as_slice()?.to_vec())
 }
 
+/// Units of the values of a record.
+pub(crate) fn record_units(value: &Bound<'_, PyAny>) -> PyResult<Units> {
+    let expected = "units of a record, such as \"g\" or \"cm/s2\"";
+    let text: Option<String> = value.extract().ok();
+    let units = text.as_deref().and_then(Units::parse);
+    let found = || text.clone().unwrap_or_else(|| described(value));
+    units.ok_or_else(|| of_argument(value.py(), "units", expected, &found()))
+}
+
 /// Units of acceleration.
 fn units_of(py: Python<'_>, text: &str) -> PyResult<Units> {
     let units = Units::parse(text).filter(|units| units.quantity() == Quantity::Acceleration);
@@ -163,10 +175,81 @@ pub(crate) fn accelerations(
     Ok((in_si.collect(), units))
 }
 
-/// A factor, of any kind of number.
-pub(crate) fn factor_of(value: &Bound<'_, PyAny>) -> PyResult<f64> {
-    let number = plain("factor", value)?.and_then(|plain| plain.extract::<f64>().ok());
-    number.ok_or_else(|| of_argument(value.py(), "factor", "a number", &value.to_string()))
+/// A number of any kind, without a dimension.
+pub(crate) fn number_in(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    let number = plain(name, value)?.and_then(|plain| plain.extract::<f64>().ok());
+    number.ok_or_else(|| other(name, "a number", value))
+}
+
+/// What stands in place of something else, as a person calls it.
+pub(crate) fn described(value: &Bound<'_, PyAny>) -> String {
+    let own = [
+        value.is_none(),
+        value.is_instance_of::<PyBool>(),
+        value.is_instance_of::<PyInt>(),
+        value.is_instance_of::<PyFloat>(),
+        value.is_instance_of::<PyString>(),
+    ];
+    let text = own.contains(&true).then(|| value.repr().ok()).flatten();
+    let text = text.map(|text| text.to_string()).filter(|text| text.chars().count() <= 40);
+    text.unwrap_or_else(|| {
+        let name = value.get_type().name();
+        name.map_or_else(|_| "another value".to_owned(), |name| name.to_string())
+    })
+}
+
+/// The same for the package.
+#[pyfunction]
+#[pyo3(name = "described")]
+pub(crate) fn as_described(value: &Bound<'_, PyAny>) -> String {
+    described(value)
+}
+
+/// The one of some names that is nearest to another; none where no one is near.
+#[pyfunction]
+pub(crate) fn nearest(name: &str, names: Vec<String>) -> Option<String> {
+    similar(name, names.iter().map(String::as_str))
+}
+
+/// An argument that is something else.
+fn other(name: &str, expected: &str, value: &Bound<'_, PyAny>) -> PyErr {
+    of_argument(value.py(), name, expected, &described(value))
+}
+
+/// A text.
+pub(crate) fn text_in(name: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
+    value.extract().map_err(|_| other(name, "text", value))
+}
+
+/// Texts, each an argument of its own.
+pub(crate) fn texts_in(name: &str, values: &Bound<'_, PyTuple>) -> PyResult<Vec<String>> {
+    values.iter().map(|value| text_in(name, &value)).collect()
+}
+
+/// A path.
+pub(crate) fn path_in(name: &str, value: &Bound<'_, PyAny>) -> PyResult<PathBuf> {
+    value.extract().map_err(|_| other(name, "a path", value))
+}
+
+/// A whole number that is not negative.
+pub(crate) fn count_in(name: &str, value: &Bound<'_, PyAny>) -> PyResult<usize> {
+    let whole = (!value.is_instance_of::<PyBool>()).then(|| value.extract().ok()).flatten();
+    whole.ok_or_else(|| other(name, "a whole number ≥ 0", value))
+}
+
+/// Values by keys that are text.
+pub(crate) fn keys_in<'py>(
+    name: &str,
+    expected: &str,
+    value: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyDict>> {
+    if let Ok(dict) = value.cast::<PyDict>() {
+        return Ok(dict.clone());
+    }
+    let mapping = value.cast::<PyMapping>().map_err(|_| other(name, expected, value))?;
+    let dict = PyDict::new(value.py());
+    dict.update(mapping)?;
+    Ok(dict)
 }
 
 /// A channel by its name, or by its number from 1.

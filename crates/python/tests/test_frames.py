@@ -123,5 +123,5 @@ def test_frames_go_in() -> None:
     frames = [ida, ida.table, ida.to_pandas(), polars.DataFrame(ida.table), pyarrow.table(ida.table)]
     curves = [ss.fragility(frame, limit="40 mm", measure="PGA", units="m/s2") for frame in frames]
     assert len({curve.summary["median"] for curve in curves}) == 1
-    study = ss.study(ss.Plan(found.model, suite(), measure="PGA", levels="0.2..0.27 g:29", bounds="nominal"))
+    study = ss.study(ss.Plan(found.model, suite(), measure="PGA", scale_to="0.2..0.27 g:29", bounds="nominal"))
     assert ss.fragility(study, limit="40 mm", measure="PGA").summary["median"] == curves[0].summary["median"]

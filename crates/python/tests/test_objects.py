@@ -1,5 +1,6 @@
 """Structures of matrices, streams of ObsPy, results in folders, suites with their scaling, words that have changed."""
 
+import functools
 import io
 import os
 import pickle
@@ -75,7 +76,7 @@ def test_a_structure_is_made_of_parts() -> None:
         ({"omega": [1.0, -1.0, 2.0]}, "^omega: expected circular frequencies > 0"),
         ({"damping": [0.1]}, "^damping: "),
         ({"mass": [1.0]}, r"^mass: expected masses in kg: 3 of them, or a symmetric matrix of 3 × 3, found"),
-        ({"points": {"Roof": 3}}, "^points: expected rows of phi, from 0 to 2, found 'Roof': 3"),
+        ({"points": {"Roof": 3}}, "^points: expected rows of phi, from 0 to 2, found \"Roof\": 3"),
         ({"structure": {}}, "^structure: expected that of the modes alone"),
     ],
 )
@@ -186,7 +187,7 @@ def test_a_suite_says_how_its_records_are_scaled() -> None:
     assert ss.sensitivity(model, suite, "block.mass") == ss.sensitivity(model, records, "block.mass", **asked)
     levels = ss.Suite(records, scale_to=["0.1 g", "0.2 g"])
     assert ss.ida(model, levels, limit=0.05) == ss.ida(model, records, scale_to=["0.1 g", "0.2 g"], limit=0.05)
-    assert ss.study(ss.Plan(model, levels)).table == ss.study(ss.Plan(model, records, levels=["0.1 g", "0.2 g"])).table
+    assert ss.study(ss.Plan(model, levels)).table == ss.study(ss.Plan(model, records, scale_to=["0.1 g", "0.2 g"])).table
     in_pairs = ss.Suite(records, second={"c": quick_pulse().scaled(0.3), "d": quick_pulse().scaled(0.7)}, scale=2.0)
     assert ss.suite(model, in_pairs) == ss.suite(model, records, second=in_pairs.second, scale=2.0)
     with pytest.raises(ss.InputError, match="^scale_to: expected one value, of the Suite or beside it, found both$"):
@@ -204,8 +205,51 @@ def test_old_words_are_taken_with_a_warning() -> None:
     assert {w.filename for w in caught} == {__file__} and old == ss.demands(block(), records=records, vary=radii)
     with pytest.warns(DeprecationWarning, match="^sensitivity: motions is called records now$"):
         ss.sensitivity(block(), motions=records, paths="block.mass")  # type: ignore[call-arg]
+    with pytest.warns(DeprecationWarning, match="^demands: levels is called scale_to now$"):
+        old = ss.demands(block(), records, radii, levels=[1.0, 2.0])  # type: ignore[call-arg]
+    assert old == ss.demands(block(), records, radii, scale_to=[1.0, 2.0])
+    with pytest.warns(DeprecationWarning, match="^Plan: levels is called scale_to now$") as caught:
+        plan = ss.Plan(block(), records, radii, levels=[1.0])  # type: ignore[call-arg]
+    assert plan == ss.Plan(block(), records, radii, scale_to=[1.0]) and caught[0].filename == __file__
+    with pytest.warns(DeprecationWarning, match="^Plan.levels is called scale_to now$") as caught:
+        assert plan.levels == [1.0]
+    assert caught[0].filename == __file__
     with pytest.raises(TypeError, match="demands: expected records, found records and motion"):
         ss.demands(block(), records, vary=radii, records=records, motion=records)  # type: ignore[misc,call-arg]
+
+
+def test_every_summary_says_of_which_model_and_motions_it_is() -> None:
+    model, records = block().with_({"slider.radius": "2 m"}), {"a": quick_pulse(), "b": quick_pulse().scaled(0.5)}
+    digests = {name: motion.digest for name, motion in records.items()}
+    of_one = ss.run(model, records["a"]).summary
+    assert (of_one["model_hash"], of_one["record"]["motion_hash"]) == (model.digest, digests["a"])
+    found = [
+        ss.suite(model, records), ss.spectrum(model, records, {"slider.radius": [1.0, 2.0]}),
+        ss.ida(model, records, scale_to=[1.0, 2.0, 4.0], limit=0.001), ss.sensitivity(model, records, "block.mass"),
+        ss.design(model, records, {"slider.radius": [1.0, 2.0]}, gap=0.5, sensitivity=0),
+    ]
+    found += [ss.fragility(found[2], fit_to="cloud"), ss.fragility(pickle.loads(pickle.dumps(found[2])), fit_to="cloud")]
+    for one in found:
+        assert one.summary["model_hash"] == model.digest
+        assert {on["record"]: on["motion_hash"] for on in one.summary["suite"]} == digests
+    study = ss.study(ss.Plan(model, records))
+    assert study.made_of == {"model": model.digest, **{f"record {name}": of for name, of in digests.items()}}
+    assert pickle.loads(pickle.dumps(study)).made_of == study.made_of and len(study) == 5
+    # The same samples have the same digest, whoever made them, and one other sample another.
+    same = ss.Motion([0.0, 0.2, -0.2, 0.0], dt=0.1, units="g")
+    assert same.digest == digests["a"] != ss.Motion([0.0, 0.2, -0.2, 1e-9], dt=0.1, units="g").digest
+    assert model.digest == ss.Model.from_toml("# A comment.\n" + model.toml).digest != block().digest
+
+
+def test_a_suite_may_go_without_its_certificates() -> None:
+    model, records = block().with_({"slider.radius": "2 m"}), {"a": quick_pulse(), "b": quick_pulse().scaled(0.5)}
+    judged, alone = ss.suite(model, records), ss.suite(model, records, check=False)
+    assert judged.summary["certified"]["certified"] == 2 and alone.summary["certified"]["certified"] == 0
+    assert judged.table["holds"] == [True, True] and alone.table["holds"] == [None, None]
+    for name in set(judged.table) - {"holds"}:
+        np.testing.assert_array_equal(judged.table[name], alone.table[name], name)
+    assert "0 of 2 runs certified" in str(alone) and "every certificate holds" not in str(alone)
+    assert ss.run(model, records, check=False) == alone
 
 
 class Bar:
@@ -213,8 +257,8 @@ class Bar:
 
     made: "list[Bar]" = []
 
-    def __init__(self, total: int) -> None:
-        self.total, self.n, self.closed = total, 0, False
+    def __init__(self, total: int, **given: str) -> None:
+        self.total, self.n, self.closed, self.given = total, 0, False, given
         self.made.append(self)
 
     def update(self, n: int = 1) -> None:
@@ -240,6 +284,11 @@ def test_long_work_is_followed(monkeypatch: pytest.MonkeyPatch) -> None:
 
     def call(done: int, planned: int) -> None: ...
 
+    with progress.following(functools.partial(Bar, unit="run")) as on:
+        assert on is not None
+        on(1, 3)
+    bar = Bar.made.pop()
+    assert (bar.total, bar.n, bar.closed, bar.given) == (3, 3, True, {"unit": "run"})
     for given, expected in [(call, call), (False, None), (None, None)]:
         with progress.following(given) as on:
             assert on is expected
@@ -250,7 +299,14 @@ def test_long_work_is_followed(monkeypatch: pytest.MonkeyPatch) -> None:
     with progress.following(None) as on:
         assert on is not None
         on(50, 200)
+    # Below a cell of a notebook the same line is seen.
+    cell = type("OutStream", (io.StringIO,), {"__module__": "ipykernel.iostream"})()
+    monkeypatch.setattr(sys, "stderr", cell)
+    with progress.following(None) as on:
+        assert on is not None
+        on(50, 200)
     shown = terminal.getvalue()
+    assert cell.getvalue() == shown
     assert shown.startswith("\r50 of 200 runs, 25 %, 0 s left") and shown.endswith("\r")
     assert ss.demands(block(), quick_pulse(), {"block.mass": [1.0]}, progress=Bar) is not None
 

@@ -96,8 +96,8 @@ def test_schema_and_units_are_those_of_the_command() -> None:
 def test_a_run_of_many_records_is_a_suite() -> None:
     model = ss.Model.read(EXAMPLES / "taft.toml")
     assert ss.run(model, suite()) == ss.suite(model, suite())
-    with pytest.raises(ss.InputError, match="^check: expected one motion beside it"):
-        ss.run(model, suite(), check=False)  # type: ignore[call-overload]
+    with pytest.raises(ss.InputError, match="^history: expected one motion beside it"):
+        ss.run(model, suite(), history=False)  # type: ignore[call-overload]
 
 
 def test_every_result_has_a_picture_and_a_plot() -> None:

@@ -224,7 +224,7 @@ def values(samples: int = 64) -> ss.Plan:
         samples=samples,
         seed=3,
         measure="PGA",
-        levels=["0.2 g", "0.4 g"],
+        scale_to=["0.2 g", "0.4 g"],
     )
 
 
@@ -508,10 +508,10 @@ def test_what_is_wrong_with_a_plan_is_said_of_its_argument() -> None:
     for wrong, message in [
         ({"records": {}}, "^records: expected at least one motion"),
         ({"records": None, "scale": [2.0]}, r"^scale: expected records beside it, found \[2.0\]$"),
-        ({"records": None, "levels": ["1 g"]}, "^levels: expected records beside it"),
+        ({"records": None, "scale_to": ["1 g"]}, "^scale_to: expected records beside it"),
         ({"samples": 3}, "^samples: expected vary beside it, found 3$"),
         ({"second": {}}, "^second: expected one other component for each of 3 records, found 0$"),
-        ({"measure": "PGAA", "levels": ["0.1 g"]}, "^measure: expected "),
+        ({"measure": "PGAA", "scale_to": ["0.1 g"]}, "^measure: expected "),
         ({"scale": [1.0, 1.0]}, "^scale: expected factors that differ, found 1 twice$"),
         ({"vary": {"slider.radios": ["1 m"]}, "method": "grid"}, '^vary.slider.radios: .*nearest is "slider.radius"$'),
         ({"vary": {"slider.radius": ["1 m"]}, "samples": 0}, "^samples: expected "),
@@ -525,10 +525,10 @@ def test_levels_are_text_or_a_list() -> None:
     text, listed = "0.1, 0.2 g", ["0.1 g", "0.2 g"]
     by_text, by_list = (ss.ida(model, records, scale_to=levels) for levels in (text, listed))
     assert by_text.table == by_list.table
-    plans = [ss.Plan(model, records, measure="PGA", levels=levels) for levels in (text, listed)]
+    plans = [ss.Plan(model, records, measure="PGA", scale_to=levels) for levels in (text, listed)]
     by_text, by_list = (ss.study(plan).table for plan in plans)
     assert by_text == by_list
-    ranged = ss.Plan(model, records, measure="PGA", levels="0.1..0.3 g:3", bounds="nominal")
+    ranged = ss.Plan(model, records, measure="PGA", scale_to="0.1..0.3 g:3", bounds="nominal")
     assert ss.study(ranged).runs == 9
 
 

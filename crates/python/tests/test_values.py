@@ -86,7 +86,7 @@ def test_one_rule_for_values_in_every_call() -> None:
     assert hunted.table == ss.ida(block(), records, between="0.5 m/s2..20 m/s2", limit="1 mm").table
     scaled = ss.suite(block(), records, scale_to=3.0)
     assert scaled.table == ss.suite(block(), records, scale_to="3 m/s2").table
-    levels = [ss.Plan(block(), records, levels=levels) for levels in ([1.0, 2.0], ["1 m/s2", "2 m/s2"], np.array([1, 2]))]
+    levels = [ss.Plan(block(), records, scale_to=levels) for levels in ([1.0, 2.0], ["1 m/s2", "2 m/s2"], np.array([1, 2]))]
     tables = [ss.study(plan).table for plan in levels]
     assert tables[0] == tables[1] == tables[2] and set(tables[0]["level"]) == {1.0, 2.0}
     # Distributions: what has the path's dimension is in SI, the rest is not.
@@ -115,7 +115,7 @@ def test_every_unit_is_one_that_pint_reads() -> None:
     pair = ss.Motion(np.sin(6 * t), y=np.sin(4 * t), dt=0.01, units="m/s2")
     model = block().with_({"slider.radius": "2 m", "slider.damping_ratio": 0.02})
     response = ss.run(model, pair)
-    table = ss.demands(model, pair, {"slider.damping_ratio": 0.02, "block.mass": "1 t"}, levels=2.0)
+    table = ss.demands(model, pair, {"slider.damping_ratio": 0.02, "block.mass": "1 t"}, scale_to=2.0)
     tables = [table, ss.Table(response.history), response.events.table, pair.components["x"].spectrum([1.0]), ss.suite(model, [pair]).table]
     for one in [*tables, response.history]:
         for name, of in one.units.items():
@@ -166,7 +166,7 @@ def test_each_design_has_its_own_intensity() -> None:
     scale, levels = [1.0, 2.0, -1.5], ["0.2 g", 3.0, "4 m/s2"]
     table = ss.demands(block(), records, designs, scale=scale, check=1.0)
     assert table["scale"].tolist() == scale * 2
-    by_level = ss.demands(block(), records, designs, measure="PGA", levels=levels, check=1.0)
+    by_level = ss.demands(block(), records, designs, measure="PGA", scale_to=levels, check=1.0)
     in_si = [0.2 * 9.80665, 3.0, 4.0]
     assert by_level["level"].tolist() == in_si * 2 and by_level.units["level"] == "m/s²"
     assert np.allclose(by_level["PGA_m_per_s2" if "PGA_m_per_s2" in by_level else "pga_m_per_s2"], in_si * 2, rtol=1e-14)
@@ -179,14 +179,14 @@ def test_each_design_has_its_own_intensity() -> None:
         assert factor == in_si[row % 3] / motion.pga_m_per_s2
         alone = ss.run(model, motion.scaled(factor)).summary["peak_sliding_displacement_m"]
         assert by_level["peak_sliding_displacement_m"][row] == alone
-    assert ss.demands(block(), records, {"block.mass": 300.0}, levels=[1.0, 2.0, 3.0])["level"].tolist() == [1.0, 2.0, 3.0] * 2
+    assert ss.demands(block(), records, {"block.mass": 300.0}, scale_to=[1.0, 2.0, 3.0])["level"].tolist() == [1.0, 2.0, 3.0] * 2
     for wrong, told in [
         ({"scale": [1.0, 2.0]}, "^scale: expected 3 values, as many as designs, found 2$"),
-        ({"scale": 2.0, "levels": 1.0}, "^scale: expected a scale or levels, found both$"),
-        ({"measure": "PGA"}, '^measure: expected levels beside it, found "PGA"$'),
-        ({"levels": [1.0, -2.0, 1.0]}, "^levels: expected levels > 0, found -2 in row 1$"),
-        ({"levels": "0.1 m"}, "^levels: expected an acceleration"),
-        ({"levels": 1.0, "measure": "PGAA"}, "^measure: "),
+        ({"scale": 2.0, "scale_to": 1.0}, "^scale: expected scale or scale_to, found both$"),
+        ({"measure": "PGA"}, '^measure: expected scale_to beside it, found "PGA"$'),
+        ({"scale_to": [1.0, -2.0, 1.0]}, "^scale_to: expected levels > 0, found -2 in row 1$"),
+        ({"scale_to": "0.1 m"}, "^scale_to: expected an acceleration"),
+        ({"scale_to": 1.0, "measure": "PGAA"}, "^measure: "),
     ]:
         with pytest.raises(ss.InputError, match=told):
             ss.demands(block(), records, designs, **wrong)  # type: ignore[arg-type]

@@ -44,7 +44,7 @@ def test_errors_are_in_words_of_python(tmp_path: Path) -> None:
         "^vary.slider.radius.values.1: expected a length": lambda: ss.study(
             ss.Plan(block(), motions, {"slider.radius": ["1 kg"]}, method="grid")),
         "^measure: expected records that can be scaled to PGA, found PGA = 0 of quiet$": lambda: ss.study(
-            ss.Plan(block(), {"quiet": pulse().scaled(0.0)}, measure="PGA", levels=["1 g"])),
+            ss.Plan(block(), {"quiet": pulse().scaled(0.0)}, measure="PGA", scale_to=["1 g"])),
         "^b: expected the other component of a, found the same motion$": lambda: ss.study(
             ss.Plan(block(), motions, second={"b": pulse()})),
         r"^records: expected motions: .*, found the path 'a.txt' \(read_record or read_suite reads it\)$": lambda: ss.ida(
@@ -74,6 +74,34 @@ def test_errors_are_in_words_of_python(tmp_path: Path) -> None:
             block().with_({"slider.tilt_y": 1e-3}), [in_two], pairs="separate"),
         "^pairs: expected together, for slider.tilt_y is of": lambda: ss.study(
             ss.Plan(block().with_({"slider.tilt_y": 1e-3}), [in_two], pairs="separate")),
+        r"^model: expected a Model, found the path 'a.toml' \(Model.read reads it\)": lambda: ss.compare(
+            {"time_s": [0.0, 1.0]}, "a.toml"),  # type: ignore[arg-type]
+        "^measured: expected columns by name: a dict of arrays, or a frame of any library, found Motion$": lambda: ss.compare(
+            pulse(), block()),
+        "^measured time_s: expected values without a mask": lambda: ss.compare(
+            {"time_s": np.ma.array([0.0, 1.0], mask=[False, True])}, block()),
+        "^tests: expected columns by name: .*, found None$": lambda: ss.identify.cyclic(None),  # type: ignore[arg-type]
+        "^model: expected a Model, found 3$": lambda: ss.identify.free_vibration({}, model=3),  # type: ignore[arg-type]
+        "^ops: expected the module openseespy.opensees with a model in it, found None$": lambda: ss.Model.from_opensees(
+            None, {}, mass_unit="1 t", nodes={}, damping_ratio=0.02),
+        '^source: expected a column among level, exceeded, .*, found "exceded"; nearest is "exceeded"$': lambda: ss.fragility(
+            {"level": [0.1, 0.2], "exceded": [1, 2], "runs": [4, 4]}, measure="PGA", units="g"),
+        '^source: expected a column among .*, found "levl"; nearest is "level"$': lambda: ss.fragility(
+            {"levl": [0.1, 0.2], "exceeded": [1, 2], "runs": [4, 4]}, measure="PGA", units="g"),
+        '^demand: .*, found "peak_sliding_displacement_m"; nearest is "peak_sliding_displacment_m"$': lambda: ss.fragility(
+            {"level": [0.1, 0.2], "peak_sliding_displacment_m": [1, 2]}, measure="PGA", units="g", limit="1 m"),
+        "^columns: expected columns among run, .*; nearest is \"peak_sliding_displacement_m\"$": lambda: ss.demands(
+            block(), pulse(), {"block.mass": 1e3}, columns=["peak_sliding_displacemnt_m"]),
+        "^jobs: expected a whole number, found 'all'$": lambda: ss.suite(
+            block(), motions, jobs="all"),  # type: ignore[arg-type]
+        "^progress: expected a callable of runs done and planned, a bar such as tqdm, or False, found 3$": lambda: ss.ida(
+            block(), motions, progress=3),  # type: ignore[arg-type]
+        "^history: expected True or False, found 'no'$": lambda: ss.run(
+            block(), pulse(), history="no"),  # type: ignore[call-overload]
+        "^column: expected text, found 3$": lambda: runs[3],  # type: ignore[index]
+        "^frame: expected columns of one length, 1 as 'a', found 2 in 'b'$": lambda: ss.Table({"a": [1], "b": [1, 2]}),
+        "^table: expected a table among ida, found 'idas'; nearest is \"ida\"$": lambda: ss.ida(
+            block(), two, scale_to="1 g").plot(table="idas"),
         "^samples: expected a number of samples beside distributions, found none$": lambda: ss.Plan(
             block(), motions, {"slider.radius": {"uniform": [1.0, 2.0]}}),
     }
@@ -113,7 +141,7 @@ def test_a_plan_file_becomes_a_plan(tmp_path: Path) -> None:
     plan = ss.Plan(
         model, suite(), {"slider.kinetic_friction": {"uniform": [np.float64(0.02), 0.05]},
                          "slider.radius": ("1 m", "2 m")},
-        samples=np.int64(16), seed=3, measure="PGA", levels=["0.2 g", "0.4 g"], bounds="nominal", name="A",
+        samples=np.int64(16), seed=3, measure="PGA", scale_to=["0.2 g", "0.4 g"], bounds="nominal", name="A",
     )
     path = plan.write(tmp_path)
     read = ss.Plan.read(path)

@@ -6,6 +6,7 @@ mod warnings;
 use slipstick::assessment::floors::FloorSpectra;
 use slipstick::assessment::single::{Job, Judged, Outcome, Solved};
 use slipstick::check::{Certificate, ClosestCall};
+use slipstick::hash::motion_hash;
 use slipstick::input::Names;
 use slipstick::model::Model;
 use slipstick::motion::{Figures, GroundMotion};
@@ -98,6 +99,8 @@ pub struct Summary {
     pub model: String,
     /// Hash of the model, where it was read from a text or from values.
     pub model_hash: Option<String>,
+    /// Hash of the motion under its factor, without a tail.
+    pub motion_hash: Option<String>,
     /// How it was computed.
     pub method: Method,
     /// Rows of the history.
@@ -146,6 +149,7 @@ impl Summary {
             slipstick: env!("CARGO_PKG_VERSION"),
             model: name.to_owned(),
             model_hash: None,
+            motion_hash: None,
             method: response.method,
             samples: history.map_or(motion.len(), |history| history.rows.len()),
             dt_s: motion.dt_s(),
@@ -199,6 +203,7 @@ impl Summary {
         });
         Self {
             model_hash: Some(analysis.hash()),
+            motion_hash: Some(motion_hash(&loaded.motion)),
             // The step is that of the record: a tail may start with a jump or end between two steps.
             dt_s: loaded.motion.dt_s(),
             origin: loaded.origin.clone(),

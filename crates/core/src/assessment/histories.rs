@@ -16,6 +16,7 @@ use super::single::{Job, Judged, Outcome};
 use super::suite::{Scaled, Scaling, Suite};
 use super::{AssessmentError, FailedRun};
 use crate::error::{ChoiceError, RunError, Stopped, similar};
+use crate::hash::motion_hash;
 use crate::input::loaded::Loaded;
 use crate::input::{Analysis, Bound, Names};
 use crate::model::Model;
@@ -77,6 +78,8 @@ pub struct OnRecord {
     pub pair: String,
     /// What its file says of where it was recorded.
     pub origin: Origin,
+    /// Short hash of its samples as recorded.
+    pub motion_hash: String,
     /// Factor on it.
     pub scale: f64,
     /// Peak of the horizontal acceleration as it was run, in m/s²; in two directions of the resultant.
@@ -152,6 +155,8 @@ pub struct ModelHistories {
     pub bounds: Vec<Bound>,
     /// Its records in their order.
     pub records: Vec<OnRecord>,
+    /// Whether its runs were judged.
+    pub certifying: bool,
     /// Index of the record that slides farthest with the bound that governs, index of that bound, times in s
     /// and sliding displacements in m.
     pub governing_history: Option<(usize, usize, [Vec<f64>; 2])>,
@@ -387,6 +392,36 @@ pub fn run_histories(
     kept: Kept<'_>,
     engine: &Engine<'_>,
 ) -> Result<Histories, AssessmentError> {
+    histories(models, scaling, kept, Certifying::Every, engine)
+}
+
+/// The same where no run is judged: demands alone, in less time.
+///
+/// # Errors
+/// As [`run_histories`].
+pub fn run_uncertified_histories(
+    models: &[ModelOn<'_>],
+    scaling: &Scaling,
+    kept: Kept<'_>,
+    engine: &Engine<'_>,
+) -> Result<Histories, AssessmentError> {
+    histories(models, scaling, kept, Certifying::None, engine)
+}
+
+/// Which runs are judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Certifying {
+    Every,
+    None,
+}
+
+fn histories(
+    models: &[ModelOn<'_>],
+    scaling: &Scaling,
+    kept: Kept<'_>,
+    certifying: Certifying,
+    engine: &Engine<'_>,
+) -> Result<Histories, AssessmentError> {
     for name in kept.histories_of {
         known(name, models)?;
     }
@@ -402,7 +437,11 @@ pub fn run_histories(
             let (record, bound) = (i / bounds.len(), i % bounds.len());
             Case { record, bound, scale: factors[record], ..Case::default() }
         };
-        let hashes = hashes(model.suite, kept, engine)?;
+        // What is kept has its certificate.
+        let hashes = match certifying {
+            Certifying::Every => hashes(model.suite, kept, engine)?,
+            Certifying::None => Vec::new(),
+        };
         let run = |i: usize| {
             let (case, bound) = (case(i), &bounds[i % bounds.len()]);
             let keeper = keeper(model, (&case, bound), &hashes, engine);
@@ -410,9 +449,14 @@ pub fn run_histories(
             if let Some(run) = before.and_then(|line| kept::read(&line)) {
                 return CaseRun::of(case, Ok(run));
             }
-            let ran = with_bound(model, &case, bound, kept.floor_spectra, engine).map(|judged| {
+            let figures = match certifying {
+                Certifying::Every => with_bound(model, &case, bound, kept.floor_spectra, engine)
+                    .map(|judged| RunFigures::of(bound, judged)),
+                Certifying::None => unjudged(model, &case, bound, kept.floor_spectra, engine),
+            };
+            let ran = figures.map(|figures| {
                 let alone = alone::of(model, &case, bound, engine).ok().flatten();
-                RunFigures { alone, ..RunFigures::of(bound, judged) }
+                RunFigures { alone, ..figures }
             });
             if let (Some((all, key)), Some(line)) = (keeper, ran.as_ref().ok().and_then(kept::line))
             {
@@ -435,6 +479,7 @@ pub fn run_histories(
             travels_m: slider.surfaces().iter().map(|on| on.travel_m).collect(),
             stop_m: slider.stop_m(),
             levels_m: profiles::levels_m(&model.analysis.model),
+            certifying: certifying == Certifying::Every,
             governing_history: None,
             lateral: match scaling {
                 Scaling::Target(spectrum, _) => lateral(model.analysis, spectrum),
@@ -584,16 +629,29 @@ impl RunFigures {
     fn of(bound: &Bound, (job, outcome): (Job, Outcome)) -> Self {
         let Outcome { nominal, floor_spectra, .. } = outcome;
         let Judged { model, response, certificate, .. } = nominal;
+        let judged = response.method != Method::Stepwise;
+        let defect = (judged && !certificate.holds()).then(|| {
+            let names = certificate.defects().into_iter().map(|(name, _)| name);
+            names.collect::<Vec<_>>().join(", ")
+        });
+        let largest = judged.then(|| certificate.largest());
+        Self { defect, largest, ..Self::unjudged(bound, job, &model, response, floor_spectra) }
+    }
+
+    fn unjudged(
+        bound: &Bound,
+        job: Job,
+        model: &Model,
+        response: Response,
+        floor_spectra: Option<FloorSpectra>,
+    ) -> Self {
         let nominal = *bound == Bound::NOMINAL;
         let sliding = if nominal { sliding(&response) } else { None };
-        let met = struck(&model, &response.demands).into_iter();
-        let met = met.chain(flat_geometry(&model, &response.demands));
+        let met = struck(model, &response.demands).into_iter();
+        let met = met.chain(flat_geometry(model, &response.demands));
         Self {
-            defect: (response.method != Method::Stepwise && !certificate.holds()).then(|| {
-                let names = certificate.defects().into_iter().map(|(name, _)| name);
-                names.collect::<Vec<_>>().join(", ")
-            }),
-            largest: (response.method != Method::Stepwise).then(|| certificate.largest()),
+            defect: None,
+            largest: None,
             alone: None,
             floor_spectra,
             sliding,
@@ -618,6 +676,7 @@ fn on_record(
         record: name.clone(),
         pair: model.suite.pair_name(record).to_owned(),
         origin: origin.clone(),
+        motion_hash: motion_hash(motion),
         scale: *scale,
         pga_m_per_s2: scale.abs() * motion.figures().pga_m_per_s2,
         runs: Vec::new(),
@@ -650,6 +709,29 @@ fn with_bound(
     judged(model.analysis, motion, bound, floor_spectra, engine)
 }
 
+/// The same without the certificate.
+fn unjudged(
+    model: &ModelOn<'_>,
+    case: &Case,
+    bound: &Bound,
+    floor_spectra: bool,
+    engine: &Engine<'_>,
+) -> Result<RunFigures, RunError> {
+    let motion = model.suite.motion(case.record, case.scale, 0.0)?;
+    let job = job(model.analysis, motion, bound)?;
+    let (response, spectra) = engine.watch(|go_on| job.solve_while(floor_spectra, go_on))?;
+    let of = job.analysis.model.clone();
+    Ok(RunFigures::unjudged(bound, job, &of, response, spectra))
+}
+
+/// A model with a bound of friction on a motion.
+fn job(analysis: &Analysis, motion: GroundMotion, bound: &Bound) -> Result<Job, RunError> {
+    let mut analysis = analysis.clone();
+    analysis.friction_bounds = None;
+    analysis.model = bound.of(&analysis.model);
+    Ok(Job::new(analysis, Loaded::made(motion, String::new()))?)
+}
+
 fn judged(
     analysis: &Analysis,
     motion: GroundMotion,
@@ -657,10 +739,7 @@ fn judged(
     floor_spectra: bool,
     engine: &Engine<'_>,
 ) -> Result<(Job, Outcome), RunError> {
-    let mut analysis = analysis.clone();
-    analysis.friction_bounds = None;
-    analysis.model = bound.of(&analysis.model);
-    let job = Job::new(analysis, Loaded::made(motion, String::new()))?;
+    let job = job(analysis, motion, bound)?;
     let outcome = engine.watch(|go_on| job.run_while(floor_spectra, go_on))?;
     Ok((job, outcome))
 }
@@ -749,8 +828,11 @@ fn table_of_runs(models: &[ModelHistories], shape: DemandShape) -> Table {
         "m/s2",
         rows.iter().map(|(_, on, _)| on.pga_m_per_s2).collect(),
     );
-    let holds =
-        rows.iter().map(|(_, on, i)| Some(on.runs[*i].as_ref().ok()?.defect.is_none())).collect();
+    let holds = rows.iter().map(|(model, on, i)| {
+        let run = on.runs[*i].as_ref().ok()?;
+        model.certifying.then(|| run.defect.is_none())
+    });
+    let holds = holds.collect();
     table.columns.push(Column {
         name: "holds".to_owned(),
         unit: String::new(),

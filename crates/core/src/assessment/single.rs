@@ -138,6 +138,23 @@ impl Job {
         Ok(Outcome { nominal, bounds, floor_spectra })
     }
 
+    /// The nominal response, which nothing has judged, and its floor spectra where they are asked for.
+    ///
+    /// # Errors
+    /// [`SolveError::Stopped`] where `go_on` says no, otherwise [`SolveError`] with time and cause.
+    pub fn solve_while(
+        &self,
+        floor_spectra: bool,
+        go_on: Cancel<'_>,
+    ) -> Result<(Response, Option<FloorSpectra>), SolveError> {
+        let response = self.solve(&self.analysis.model, go_on)?;
+        let spectra = match floor_spectra {
+            true => FloorSpectra::of(&self.loaded.motion, &response, go_on)?,
+            false => None,
+        };
+        Ok((response, spectra))
+    }
+
     fn solve(&self, model: &Model, go_on: Cancel<'_>) -> Result<Response, SolveError> {
         solver::solve_while(model, &self.motion, self.analysis.method, go_on)
     }

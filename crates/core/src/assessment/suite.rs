@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use super::grid::levels;
 use super::{AssessmentError, refuse};
 use crate::error::{MotionError, RunError, Stopped};
+use crate::hash::motion_hash;
 use crate::input::Bound;
 use crate::input::loaded::Loaded;
 use crate::motion::GroundMotion;
@@ -95,6 +96,8 @@ pub struct Recorded {
     pub name: String,
     /// What its file says of where it was recorded.
     pub origin: Origin,
+    /// Short hash of its samples as recorded; none where an answer does not have them.
+    pub motion_hash: Option<String>,
     /// Factor on it; none where that differs from run to run.
     pub factor: Option<f64>,
     /// Its peak acceleration under that factor, else as recorded, in m/s².
@@ -230,6 +233,7 @@ impl Suite {
         let of = |record: &Record| Recorded {
             name: record.name.clone(),
             origin: record.origin.clone(),
+            motion_hash: Some(motion_hash(&record.motion)),
             factor: None,
             pga_m_per_s2: record.motion.figures().pga_m_per_s2,
             notices: record.notices.clone(),

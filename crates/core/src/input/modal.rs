@@ -13,9 +13,11 @@ use crate::model::ROUNDED_MASS;
 
 mod cells;
 mod csi;
+mod matrices;
 mod opensees;
 mod ours;
 
+pub use matrices::EigenMatrices;
 pub use opensees::OPENSEES_TITLE;
 
 /// What files do not say themselves.

@@ -155,6 +155,8 @@ impl FrontEnd {
     pub fn calls(self, field: &str) -> String {
         match self {
             Self::Command => format!("--{field}"),
+            // What the command takes by its place is an argument here.
+            Self::Python if field == "SOURCE" => "source".to_owned(),
             Self::Python => field.replace('-', "_"),
             Self::Page => {
                 let (first, rest) = field.split_at(field.chars().next().map_or(0, char::len_utf8));
@@ -174,6 +176,8 @@ impl FrontEnd {
 pub struct Request {
     kind: Kind,
     given: Vec<(&'static Field, String)>,
+    /// Whether the runs of a suite are judged.
+    pub(super) certifies: bool,
 }
 
 impl Request {
@@ -185,7 +189,7 @@ impl Request {
         kind: Kind,
         given: impl IntoIterator<Item = (&'a str, String)>,
     ) -> Result<Self, ChoiceError> {
-        let mut asked = Self { kind, given: Vec::new() };
+        let mut asked = Self { kind, given: Vec::new(), certifies: true };
         for (name, text) in given {
             let Some(field) = kind.fields().iter().find(|field| field.name == name) else {
                 return Err(ChoiceError {
@@ -217,6 +221,12 @@ impl Request {
             asked.given.push((field, text));
         }
         Ok(asked)
+    }
+
+    /// The same without a certificate for the runs of a suite.
+    #[must_use]
+    pub fn uncertified(self) -> Self {
+        Self { certifies: false, ..self }
     }
 
     /// Which analysis.

@@ -7,7 +7,7 @@ use core::fmt::Write as _;
 
 use super::cases::Noticed;
 use super::records::Record;
-use crate::hash::sha256_hex;
+use crate::hash::{sha256_hex, sha256_of_motion};
 use crate::input::Parts;
 use crate::model::Model;
 use crate::notice::NoticeKind;
@@ -67,15 +67,8 @@ pub(crate) fn hash_of_model(model: &Model, tail_s: f64) -> String {
 
 /// The hash of a record's motion, which is run in two directions; `None` of others.
 pub(crate) fn hash_of_record(record: &Record) -> Option<String> {
-    let motion = &record.motion;
-    let y = motion.horizontal_y_m_per_s2()?;
-    let vertical = motion.vertical_m_per_s2().unwrap_or_default();
-    let lists = [motion.times_s(), motion.horizontal_m_per_s2(), y, vertical];
-    let numbers = lists.into_iter().flat_map(|list| {
-        core::iter::once(list.len() as u64).chain(list.iter().map(|value| value.to_bits()))
-    });
-    let bytes: Vec<u8> = numbers.flat_map(u64::to_le_bytes).collect();
-    Some(sha256_hex(&bytes))
+    record.motion.horizontal_y_m_per_s2()?;
+    Some(sha256_of_motion(&record.motion))
 }
 
 /// An answer and what was noticed of it as a line: kinds of notices, `!` before the severe ones, then the bits of

@@ -24,6 +24,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _core, identify
+from ._arguments import checked
 from ._assessment import (
     Assessment,
     Sensitivity,
@@ -135,6 +136,7 @@ if not TYPE_CHECKING:  # A name that is none does not type-check.
         raise AttributeError(f"module 'slipstick' has no attribute {name!r}")
 
 
+@checked
 def read_record(
     path: str | PathLike[str],
     *,
@@ -173,10 +175,10 @@ def read_record(
     OSError
         For a file that cannot be read: ``FileNotFoundError`` and its kin.
     """
-    along_y, up = (None if other is None else Path(other) for other in (y, vertical))
-    return Motion.read(Path(path), y=along_y, channel=channel, units=units, dt=dt, vertical=up)
+    return Motion.read(path, y=y, channel=channel, units=units, dt=dt, vertical=vertical)
 
 
+@checked
 def read_channels(
     path: str | PathLike[str], *, units: str | None = None, dt: float | str | None = None
 ) -> dict[str, Motion]:
@@ -204,6 +206,7 @@ def read_channels(
     return _core.read_channels(Path(path), units=units, dt=dt)
 
 
+@checked
 def schema(*, plan: bool = False) -> dict[str, Any]:
     """Give the JSON schema of the model file, as ``slipstick schema`` prints it.
 

@@ -8,12 +8,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _core
+from ._arguments import checked
 from ._names import renamed
 from ._progress import following
 from ._records import Suite, of_suite
-from ._request import a_model, given, paths as texts_of, several, wrong
+from ._request import a_model, given, one_of, paths as texts_of, several, wrong
 from ._result import Result, noticed, warn_of, write
-from ._table import Table
+from ._table import Table, table_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -38,6 +39,7 @@ class Assessment(Result):
 
     _KEYS = (*Result._KEYS, ("text",), ("_report_html",))
 
+    @checked
     def plot(
         self,
         x: str | None = None,
@@ -75,7 +77,7 @@ class Assessment(Result):
             drawn = self._drawn(y, ax, **kwargs)
             if drawn is not None:
                 return drawn
-        chosen = self.table if table is None else self.tables[table]
+        chosen = self.table if table is None else self.tables[one_of("table", "a table among", table, self.tables)]
         return chosen.plot(x, y, by=by, ax=ax, **kwargs)
 
     def _drawn(self, y: str | None, ax: Axes | None, **kwargs: Any) -> Axes | None:
@@ -98,6 +100,7 @@ class Assessment(Result):
             return _plot.draw_ida(self.table, self.summary, ax, **kwargs)
         return None
 
+    @checked
     def report(self, path: str | PathLike[str]) -> Path:
         """Write the result as one HTML page.
 
@@ -112,6 +115,7 @@ class Assessment(Result):
         return str(self._tell("text"))
 
 
+@checked
 def read_suite(
     patterns: str | PathLike[str] | Iterable[str | PathLike[str]],
     *,
@@ -149,12 +153,13 @@ def read_suite(
     OSError
         For a file that cannot be read, a pattern that matches none, and components that are of no one record.
     """
-    along_y, up = texts_of(y), texts_of(vertical)
+    along_y, up = texts_of("y", y), texts_of("vertical", vertical)
     return dict(
-        _core.read_suite(texts_of(patterns), y=along_y, channel=channel, units=units, dt=dt, vertical=up)
+        _core.read_suite(texts_of("patterns", patterns), y=along_y, channel=channel, units=units, dt=dt, vertical=up)
     )
 
 
+@checked
 def suite(
     models: _core.Model | Mapping[str, _core.Model],
     records: Records | Suite,
@@ -176,6 +181,7 @@ def suite(
     author: str | None = None,
     date: str | None = None,
     pairs: str | None = None,
+    check: bool = True,
     jobs: int | None = None,
     progress: Progress | None = None,
 ) -> Assessment:
@@ -216,6 +222,9 @@ def suite(
     pairs
         How pairs are run: ``"together"``, the table moving in two horizontal directions, or ``"separate"``, each
         component by itself.
+    check
+        Whether every run is judged. Without it the column ``holds`` is empty, and the answer says that no run was
+        certified.
     jobs, progress
         As in ``study``.
 
@@ -256,12 +265,14 @@ def suite(
             others,
             given("suite", asked),
             target=None if target is None else Path(target),
+            check=check,
             jobs=jobs,
             progress=on,
         )
     return _told(answer)
 
 
+@checked
 def spectrum(
     model: _core.Model,
     records: Records | Suite,
@@ -337,6 +348,7 @@ def spectrum(
 class Sensitivity(Assessment):
     """Derivatives of demands, with a tornado plot."""
 
+    @checked
     def plot(  # type: ignore[override]
         self, demand: str | None = None, *, ax: Axes | None = None, most: int = 20, **kwargs: Any
     ) -> Axes:
@@ -361,12 +373,12 @@ class Sensitivity(Assessment):
 
         known = list(dict.fromkeys(self.table["demand"]))
         chosen = known[0] if demand is None else demand
-        if chosen not in known:
-            raise wrong("demand", f"one of {', '.join(known)}", repr(chosen))
+        one_of("demand", "one of", chosen, known)
         return draw_tornado(self.table, chosen, ax, most, **kwargs)
 
 
 @renamed(motions="records")
+@checked
 def sensitivity(
     model: _core.Model,
     records: Records | Suite | None,
@@ -442,6 +454,7 @@ def sensitivity(
     return told
 
 
+@checked
 def ida(
     model: _core.Model,
     records: Records | Suite,
@@ -516,6 +529,7 @@ def ida(
     return _assess("ida", model, records, locals(), jobs, progress)
 
 
+@checked
 def fragility(
     source: Frame | Assessment | Study | str | PathLike[str] | None = None,
     *,
@@ -595,7 +609,7 @@ def fragility(
     0.31
     """
     asked = given("fragility", locals())
-    known = certified = None
+    known = certified = made_of = None
     own = {"levels": levels, "exceeded": exceeded, "runs": runs, "capacities": capacities, "reached": reached}
     own = {name: value for name, value in own.items() if value is not None}
     if (source is None) == (not own):
@@ -604,14 +618,24 @@ def fragility(
     if source is None:
         table = _own_data(own, measure, units)._core
     elif isinstance(source, Assessment):
-        known, table = source.summary.get("limit"), source.table._core
+        known, table, made_of = source.summary.get("limit"), source.table._core, _made_of(source.summary)
     elif isinstance(source, (str, PathLike)):
         table, known, certified = _core.read_runs(Path(source), demand)
     else:
-        frame = getattr(source, "table", source)
-        table = (frame if isinstance(frame, Table) else Table(frame))._core
+        table = table_of("source", getattr(source, "table", source))._core
     with following(progress) as on:
-        return _told(_core.fit(table, asked, limit=known, certified=certified, jobs=jobs, progress=on))
+        answer = _core.fit(
+            table, asked, limit=known, certified=certified, made_of=made_of, jobs=jobs, progress=on
+        )
+    return _told(answer)
+
+
+def _made_of(summary: Mapping[str, Any]) -> tuple[str, list[tuple[str, str, float]]] | None:
+    """The hash of the model, and name, hash and peak of each motion, that a summary has."""
+    if summary.get("model_hash") is None:
+        return None
+    motions = [(on["record"], on["motion_hash"], on["pga_m_per_s2"]) for on in summary.get("suite", ())]
+    return summary["model_hash"], motions
 
 
 def _own_data(own: Mapping[str, Any], measure: str | None, units: str | None) -> Table:
@@ -639,6 +663,7 @@ def _own_data(own: Mapping[str, Any], measure: str | None, units: str | None) ->
     return Table(columns, {next(iter(columns)): unit} if unit else None)
 
 
+@checked
 def design(
     model: _core.Model,
     records: Records | Suite,

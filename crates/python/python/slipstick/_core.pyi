@@ -23,10 +23,13 @@ __all__ = [
     "check",
     "compare_with",
     "demands",
+    "described",
     "fields",
     "fit",
     "identify",
+    "keys_of_modes",
     "levels",
+    "nearest",
     "numbers_in",
     "plain",
     "read_channels",
@@ -102,6 +105,8 @@ class Model:
     @property
     def name(self) -> str | None: ...
     @property
+    def digest(self) -> str: ...
+    @property
     def storeys(self) -> int: ...
     @property
     def values(self) -> dict[str, str]: ...
@@ -140,7 +145,7 @@ class Motion:
         self, station: str | None, component: str | None, start_ns: int | None, component_y: str | None
     ) -> Motion: ...
     @staticmethod
-    def from_eqsig(signal: Any, *, units: str = "m/s2") -> Motion: ...
+    def from_eqsig(signal: Any, *, units: str | None = "m/s2") -> Motion: ...
     def scaled(
         self, factor: float | None = None, *, pga: Any = None, spectrum: Any = None, periods: Any = None
     ) -> Motion: ...
@@ -176,6 +181,8 @@ class Motion:
     def acceleration_y_m_per_s2(self) -> NDArray[np.float64] | None: ...
     @property
     def vertical_m_per_s2(self) -> NDArray[np.float64] | None: ...
+    @property
+    def digest(self) -> str: ...
     @property
     def dt_s(self) -> float | None: ...
     @property
@@ -290,7 +297,7 @@ def demands(
     *,
     scale: Any = None,
     measure: str | None = None,
-    levels: Any = None,
+    scale_to: Any = None,
     one_of: int | None = None,
     jobs: int | None = None,
     progress: Callable[[int, int], object] | None = None,
@@ -328,6 +335,16 @@ def read_runs(source: Path, demand: str | None) -> tuple[Table, float | None, _C
 def check(path: str, value: object) -> None: ...
 def schema(plan: bool) -> str: ...
 def units() -> list[tuple[str, str, float, str]]: ...
+def described(value: object) -> str: ...
+def nearest(name: str, names: list[str]) -> str | None: ...
+def keys_of_modes(
+    shapes: list[list[float]],
+    omega_rad_per_s: list[float],
+    damping_ratios: list[float],
+    mass_kg: list[list[float]],
+    influence: list[float],
+    points: list[tuple[str, int]],
+) -> list[tuple[str, str]]: ...
 def plain(path: str, value: object) -> bool | int | float | str | None: ...
 def levels(text: str, measure: str) -> list[str]: ...
 def fields(kind: str) -> list[tuple[str, bool, bool, str, str]]: ...
@@ -352,6 +369,7 @@ def suite(
     given: list[tuple[str, str]],
     *,
     target: Path | None = None,
+    check: bool = True,
     jobs: int | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> Assessment: ...
@@ -361,6 +379,7 @@ def fit(
     *,
     limit: float | None = None,
     certified: _Certified | None = None,
+    made_of: tuple[str, list[tuple[str, str, float]]] | None = None,
     jobs: int | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> Assessment: ...

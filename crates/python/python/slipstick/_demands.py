@@ -6,10 +6,11 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from . import _core
+from ._arguments import checked
 from ._names import renamed
 from ._progress import following
 from ._records import components
-from ._request import a_model, several, text_of, wrong
+from ._request import one_of, several, text_of, texts, wrong
 from ._table import Table, columns_of, is_frame, units_of
 
 if TYPE_CHECKING:
@@ -20,7 +21,8 @@ if TYPE_CHECKING:
     from ._request import Values
 
 
-@renamed(motion="records", designs="vary")
+@renamed(motion="records", designs="vary", levels="scale_to")
+@checked
 def demands(
     model: _core.Model,
     records: Records | None,
@@ -28,7 +30,7 @@ def demands(
     *,
     scale: Values | None = None,
     measure: str | None = None,
-    levels: Values | None = None,
+    scale_to: Values | None = None,
     columns: Sequence[str] | None = None,
     check: float = 0.001,
     jobs: int | None = None,
@@ -48,9 +50,9 @@ def demands(
         number serves for all designs. A frame of any library goes as well, a row a design, its columns named by paths.
     scale
         A factor on every motion for each design, or one for all.
-    measure, levels
+    measure, scale_to
         In place of that every motion is scaled for each design so that the measure, PGA if left out, takes the
-        design's level: texts with their unit, or numbers in SI.
+        design's value: texts with their unit, or numbers in SI.
     columns
         The columns that are wanted; all of them if left out.
     check
@@ -85,11 +87,12 @@ def demands(
     >>> bool((np.diff(table["peak_sliding_displacement_m"]) > 0.0).all())
     True
     """
-    a_model(model)
+    if columns is not None:
+        columns = texts("columns", columns)
     lists = _lists(vary)
     if not lists:
         raise wrong("vary", "at least one path with its values", "none")
-    scaling: dict[str, Any] = {name: values for name, values in (("scale", scale), ("levels", levels)) if values is not None}
+    scaling: dict[str, Any] = {name: values for name, values in (("scale", scale), ("scale_to", scale_to)) if values is not None}
     lists.update({name: list(values) if several(values) else [values] for name, values in scaling.items()})
     count = max(len(values) for values in lists.values())
     all_of = {name: list(values) * count if len(values) == 1 else values for name, values in lists.items()}
@@ -97,26 +100,28 @@ def demands(
     if not 0.0 <= check <= 1.0:
         raise wrong("check", "a share from 0 to 1", repr(check))
     of = [] if records is None else components("records", records)[0]
-    one_of = round(1.0 / check) if check > 0.0 else None
+    every = round(1.0 / check) if check > 0.0 else None
     with following(progress) as on:
         core = _core.demands(
-            model, of, list(all_of.items()), **of_designs, measure=measure, one_of=one_of, jobs=jobs, progress=on
+            model, of, list(all_of.items()), **of_designs, measure=measure, one_of=every, jobs=jobs, progress=on
         )
     table = Table._of(core)
     if columns is None:
         return table
     for name in columns:
-        if name not in table:
-            raise wrong("columns", f"columns among {', '.join(table)}", repr(name))
+        one_of("columns", "columns among", name, table)
     return Table({name: table[name] for name in columns}, {k: v for k, v in table.units.items() if k in columns})
 
 
 def _lists(designs: Any) -> dict[str, Any]:
     """Values by path, of a frame its columns, each with the unit that the frame says."""
     if isinstance(designs, Mapping):
+        for path in designs:
+            if not isinstance(path, str):
+                raise wrong("vary", "paths of the model, {path: array}", _core.described(path))
         return {path: values if several(values) else [values] for path, values in designs.items()}
     if not is_frame(designs):
-        raise wrong("vary", "arrays by path, {path: array}, or a frame of designs", type(designs).__name__)
+        raise wrong("vary", "arrays by path, {path: array}, or a frame of designs", _core.described(designs))
     units = units_of(designs)
     return {
         path: [text_of(path, value, units[path]) for value in values] if path in units else values

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 
 from . import _core
-from ._request import given
+from ._arguments import checked
+from ._request import given, wrong
 from ._result import UNITS, Result, write
 from ._table import columns_of
 
@@ -63,6 +64,7 @@ class _Test(Result):
         """The result in a few sentences."""
         return list(self._tell("verdict"))
 
+    @checked
     def text(self, units: str = "si") -> str:
         """The table that the command prints.
 
@@ -73,6 +75,7 @@ class _Test(Result):
         """
         return str(self._tell("_text", units))
 
+    @checked
     def report(self, path: str | PathLike[str], *, units: str = "si") -> Path:
         """Write the result as one HTML page.
 
@@ -172,15 +175,20 @@ class Identified(_Test):
         return ", ".join(self.estimates)
 
 
-def _test(measured: Measured) -> Any:
+def _test(measured: Measured, argument: str = "measured") -> Any:
     """A file, or columns by name as the extension takes them."""
     if isinstance(measured, (str, PathLike)):
         return Path(fspath(measured))
-    columns = ((name, np.asarray(values)) for name, values in columns_of(measured))
+    given = columns_of(measured, argument)
+    for name, values in given:
+        if np.ma.is_masked(values):
+            raise wrong(f"{argument} {name}", "values without a mask (a gap is no measurement)", "a masked array")
+    columns = ((name, np.asarray(values)) for name, values in given)
     numbers = [(name, values) for name, values in columns if values.dtype.kind in "fiu"]
     return [(name, np.ascontiguousarray(values, dtype="f8")) for name, values in numbers]
 
 
+@checked
 def compare(
     measured: Measured,
     model: _core.Model,
@@ -234,19 +242,24 @@ def compare(
     >>> comparison.summary["quantities"][0]["peak_ratio"]
     1.0
     """
-    ranges = {figure: _range(bound) for figure, bound in (within or {}).items()}
+    if within is not None and not isinstance(within, Mapping):
+        raise wrong("within", "bounds by figure, {figure: (least, most)}", _core.described(within))
+    ranges = {figure: _range(figure, bound) for figure, bound in (within or {}).items()}
     asked = given("compare", {"method": method, "within": ranges, "mapping": mapping})
     return Comparison(_core.compare_with(_test(measured), model, asked))
 
 
-def _range(bound: Bound) -> str:
+def _range(figure: object, bound: Bound) -> str:
     if isinstance(bound, str):
         return bound
+    of_ends = isinstance(bound, Sequence) and len(bound) == 2
+    if not of_ends or not all(end is None or isinstance(end, (int, float)) for end in bound):
+        raise wrong(f"within {figure}", "two numbers, of which None leaves an end open", _core.described(bound))
     return "..".join("" if end is None else repr(float(end)) for end in bound)
 
 
-def several(tests: Measured | Sequence[Measured]) -> list[Any]:
+def several(tests: Measured | Sequence[Measured], argument: str) -> list[Any]:
     """One test or several."""
-    if isinstance(tests, Sequence) and not isinstance(tests, str):
-        return [_test(test) for test in tests]
-    return [_test(tests)]
+    if isinstance(tests, Sequence) and not isinstance(tests, (str, bytes)):
+        return [_test(test, argument) for test in tests]
+    return [_test(tests, argument)]

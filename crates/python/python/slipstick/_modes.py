@@ -1,88 +1,63 @@
-"""A structure from the matrices of an eigenvalue analysis, as the table ``[structure]`` of a model."""
+"""The matrices of an eigenvalue analysis as keys of the table ``[structure]`` of a model."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from . import _core
 from ._request import several, wrong
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from numpy.typing import NDArray
 
 __all__ = ["structure"]
 
-#: What two shapes may have in common over their modal masses, by rounding of the program that they come from
-ORTHOGONAL = 1e-6
 
-
-def structure(
-    phi: Any, omega: Any, damping: Any, mass: Any, points: Mapping[str, int] | None, influence: Any
-) -> dict[str, Any]:
-    """Periods, participations ``L = f' M r`` and shapes at points, of shapes of unit modal mass ``f' M f``.
-
-    ``r``, the influence, is what each degree of freedom does where the base moves by 1.
-    """
+def structure(phi: Any, omega: Any, damping: Any, mass: Any, points: Any, influence: Any) -> dict[str, str]:
+    """Values by the paths of their keys, of arrays of any kind; a list of masses stands on a diagonal."""
     shapes = _numbers("phi", phi, 2, "a matrix, a row a degree of freedom and a column a mode")
     freedoms, modes = shapes.shape
-    rates = _of_count("omega", omega, modes, "circular frequencies in rad/s, one a mode")
-    if not (rates > 0.0).all():
-        raise wrong("omega", "circular frequencies > 0", str(rates.min()))
-    ratios = _of_count("damping", damping if several(damping) else [damping] * modes, modes, "damping ratios, one a mode")
-    masses = _mass_matrix(mass, freedoms)
-    r = np.ones(freedoms) if influence is None else _of_count("influence", influence, freedoms, "a number a degree of freedom")
-    common = shapes.T @ masses @ shapes
-    modal = np.diag(common)
-    if not (modal > 0.0).all():
-        raise wrong("mass", "a matrix by which every mode has a mass > 0", f"{modal.min()} kg")
-    root = np.sqrt(modal)
-    apart = np.abs(common / np.outer(root, root) - np.eye(modes)).max()
-    if apart > ORTHOGONAL:
-        expected = "shapes that are orthogonal with respect to the masses, a column a mode"
-        raise wrong("phi", expected, f"two that have {apart:.3g} of their modal masses in common")
-    unit = shapes / root
-    shares = unit.T @ masses @ r
-    order = np.argsort(rates, kind="stable")
-    mode = [
-        {"period": f"{float(2.0 * np.pi / rates[j])!r} s", "damping_ratio": float(ratios[j]), "participation": float(shares[j])}
-        for j in order
-    ]
-    wanted = {f"DOF {i + 1}": i for i in range(freedoms)} if points is None else points
-    for name, place in wanted.items():
-        if not 0 <= place < freedoms:
+    expected = f"masses in kg: {freedoms} of them, or a symmetric matrix of {freedoms} × {freedoms}"
+    masses = _numbers("mass", mass, 2 if np.ndim(mass) == 2 else 1, expected)
+    rates = _numbers("omega", omega, 1, "circular frequencies in rad/s, one a mode")
+    ratios = _numbers("damping", damping if several(damping) else [damping] * modes, 1, "damping ratios, one a mode")
+    if influence is None:
+        influence = np.ones(freedoms)
+    moved = _numbers("influence", influence, 1, "a number a degree of freedom")
+    mass_kg = np.diag(masses) if masses.ndim == 1 else masses
+    return dict(
+        _core.keys_of_modes(
+            shapes.tolist(), rates.tolist(), ratios.tolist(), mass_kg.tolist(), moved.tolist(), _places(points, freedoms)
+        )
+    )
+
+
+def _places(points: Any, freedoms: int) -> list[tuple[str, int]]:
+    """Degrees of freedom by names; all of them where nothing is said."""
+    if points is None:
+        return [(f"DOF {i + 1}", i) for i in range(freedoms)]
+    if not isinstance(points, Mapping):
+        raise wrong("points", 'degrees of freedom by names, {"Roof": 9}', _core.described(points))
+    for name, place in points.items():
+        if not isinstance(name, str):
+            raise wrong("points", "names that are text", _core.described(name))
+        if not hasattr(place, "__index__") or place < 0:
             raise wrong("points", f"rows of phi, from 0 to {freedoms - 1}", f"{name!r}: {place}")
-    point = [{"name": name, "shape": [float(unit[place, j]) for j in order]} for name, place in wanted.items()]
-    return {"mass": f"{float(r @ masses @ r)!r} kg", "mode": mode, "point": point}
+    return [(name, int(place)) for name, place in points.items()]
 
 
 def _numbers(name: str, given: Any, dimensions: int, expected: str) -> NDArray[np.float64]:
+    if np.ma.isMaskedArray(given):
+        raise wrong(name, expected, "an array with a mask")
     try:
         array = np.asarray(given, dtype=np.float64)
     except (TypeError, ValueError):
-        raise wrong(name, expected, type(given).__name__) from None
+        raise wrong(name, expected, _core.described(given)) from None
     if array.ndim != dimensions or not array.size:
         raise wrong(name, expected, f"an array of shape {array.shape}")
     if not np.isfinite(array).all():
         raise wrong(name, "finite numbers", "NaN or an infinite one")
-    return array
-
-
-def _of_count(name: str, given: Any, count: int, expected: str) -> NDArray[np.float64]:
-    array = _numbers(name, given, 1, expected)
-    if len(array) != count:
-        raise wrong(name, f"{expected}, {count} in all", str(len(array)))
-    return array
-
-
-def _mass_matrix(given: Any, freedoms: int) -> NDArray[np.float64]:
-    """The mass matrix in kg, of a list of masses with these on its diagonal."""
-    expected = f"masses in kg: {freedoms} of them, or a symmetric matrix of {freedoms} × {freedoms}"
-    array = _numbers("mass", given, np.ndim(given), expected)
-    if array.ndim == 1 and len(array) == freedoms:
-        return np.diag(array)
-    if array.shape != (freedoms, freedoms) or not np.allclose(array, array.T, rtol=1e-9, atol=0.0):
-        raise wrong("mass", expected, f"an array of shape {array.shape}" + (", not symmetric" if array.shape == (freedoms, freedoms) else ""))
     return array

@@ -59,6 +59,8 @@ def stream(motion: Motion) -> Any:
 
 def motion(given: Trace | Stream, units: str | None = None) -> Motion:
     """The motion of a trace, or of the components of one station."""
+    if not is_stream(given):
+        raise wrong("stream", "a trace or a stream of ObsPy", _core.described(given))
     traces = list(getattr(given, "traces", [given]))
     found = _by_station(traces)
     if len(found) != 1:

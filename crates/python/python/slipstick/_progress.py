@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from contextlib import contextmanager
+from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
@@ -26,9 +27,9 @@ PATIENCE_S = 1.0
 
 @contextmanager
 def following(progress: Progress | None) -> Iterator[Callable[[int, int], object] | None]:
-    """What is called with the runs done and planned; without a word of it a line in a terminal, elsewhere nothing."""
+    """What is called with the runs done and planned; without a word of it a line where somebody sees it."""
     if progress is None or progress is True:
-        if progress is None and not _is_terminal():
+        if progress is None and not _is_watched():
             yield None
             return
         line = _Line()
@@ -38,7 +39,7 @@ def following(progress: Progress | None) -> Iterator[Callable[[int, int], object
             line.end()
     elif progress is False:
         yield None
-    elif hasattr(progress, "update"):
+    elif hasattr(progress, "update") or _makes_bars(progress):
         bar = _OfBar(progress)
         try:
             yield bar
@@ -48,15 +49,24 @@ def following(progress: Progress | None) -> Iterator[Callable[[int, int], object
         yield progress
 
 
-def _is_terminal() -> bool:
-    return sys.stderr is not None and sys.stderr.isatty()
+def _is_watched() -> bool:
+    """Whether a line that is written over is seen: in a terminal, and below a cell of a notebook."""
+    if sys.stderr is None:
+        return False
+    return sys.stderr.isatty() or type(sys.stderr).__module__.startswith("ipykernel")
+
+
+def _makes_bars(given: object) -> bool:
+    """Whether a value makes bars: the class of them, perhaps with some of its arguments, ``partial(tqdm, desc="IDA")``."""
+    of = given.func if isinstance(given, partial) else given
+    return isinstance(of, type) and hasattr(of, "update")
 
 
 class _OfBar:
     """Moves a bar, made with its total where its class is given."""
 
     def __init__(self, given: Any) -> None:
-        self._bar: Any = None if isinstance(given, type) else given
+        self._bar: Any = None if _makes_bars(given) else given
         self._make = given
         self._at = 0
 
@@ -68,7 +78,7 @@ class _OfBar:
         self._at = done
 
     def end(self) -> None:
-        if self._bar is not None and isinstance(self._make, type):
+        if self._bar is not None and _makes_bars(self._make):
             self._bar.update(max(0, (self._bar.total or 0) - self._at) if sys.exc_info()[0] is None else 0)
             self._bar.close()
 

@@ -8,6 +8,7 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from . import _core
+from ._arguments import check_arguments
 from ._obspy import Stream, Trace, is_stream, motion as of_stream, motions
 from ._request import wrong
 
@@ -55,6 +56,7 @@ class Suite:
     pairs: str | None = None
 
     def __post_init__(self) -> None:
+        check_arguments(type(self).__annotations__, vars(self))
         for name, of in zip(("records", "second"), components("records", self.records, self.second), strict=True):
             if getattr(self, name) is not None:
                 object.__setattr__(self, name, dict(of))
@@ -85,7 +87,7 @@ def _found(value: object) -> str:
         return f"the path {str(value)!r} (read_record or read_suite reads it)"
     if hasattr(value, "dtype"):
         return "an array (Motion(array, dt=..., units=...) is a motion)"
-    return type(value).__name__
+    return _core.described(value)
 
 
 def one(argument: str, value: object, expected: str = "a motion") -> _core.Motion:

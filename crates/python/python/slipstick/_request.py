@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from math import isfinite, isnan
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
@@ -11,8 +11,6 @@ from . import _core
 from ._errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     #: Texts with their units, or numbers in SI: alone, in a list, an array, a column of a frame
     Values = str | float | Sequence[Any] | Iterable[Any]
     Varied = str | Mapping[str, Values]
@@ -51,11 +49,24 @@ def given(kind: str, asked: Mapping[str, Any]) -> list[tuple[str, str]]:
     return texts
 
 
-def paths(given: str | PathLike[str] | Iterable[str | PathLike[str]]) -> list[str]:
+def paths(argument: str, given: str | PathLike[str] | Iterable[str | PathLike[str]]) -> list[str]:
     """One path or several as texts."""
-    if isinstance(given, (str, PathLike)):
-        return [fspath(given)]
-    return [fspath(path) for path in given]
+    listed = [given] if isinstance(given, (str, PathLike)) else given
+    if isinstance(listed, bytes) or not hasattr(listed, "__iter__") or getattr(listed, "ndim", 1) == 0:
+        raise wrong(argument, "a path, or several", _core.described(listed))
+    for path in (listed := list(listed)):
+        if not isinstance(path, (str, PathLike)):
+            raise wrong(argument, "paths", _core.described(path))
+    return [fspath(path) for path in listed]
+
+
+def texts(argument: str, given: object) -> list[str]:
+    """One text or several."""
+    listed: list[Any] = list(given) if isinstance(given, Iterable) and several(given) else [given]
+    for text in listed:
+        if not isinstance(text, str):
+            raise wrong(argument, "text, or several", _core.described(text))
+    return listed
 
 
 def several(value: Any) -> bool:
@@ -79,7 +90,7 @@ def text_of(name: str, value: Any, unit: str = "", row: int | None = None) -> st
         return str(fspath(value))
     plain = _core.plain(name, value)
     if plain is None:
-        raise wrong(name, "a number or text", type(value).__name__)
+        raise wrong(name, "a number or text", _core.described(value))
     if isinstance(plain, bool):
         return str(plain).lower()
     if isinstance(plain, float) and not isfinite(plain):
@@ -93,10 +104,23 @@ def a_model(given: object, argument: str = "model") -> None:
     if isinstance(given, _core.Model):
         return
     is_path = isinstance(given, (str, PathLike))
-    found = f"the path {str(given)!r} (Model.read reads it)" if is_path else type(given).__name__
+    found = f"the path {str(given)!r} (Model.read reads it)" if is_path else _core.described(given)
     raise wrong(argument, "a Model", found)
 
 
-def wrong(name: str, expected: str, found: str) -> InputError:
-    """An argument that cannot be."""
-    return InputError(f"{name}: expected {expected}, found {found}", path=name, expected=expected, found=found)
+def wrong(name: str, expected: str, found: str, nearest: str | None = None) -> InputError:
+    """An argument that cannot be, and what was probably meant."""
+    hint = "" if nearest is None else f'; nearest is "{nearest}"'
+    message = f"{name}: expected {expected}, found {found}{hint}"
+    return InputError(message, path=name, expected=expected, found=found, nearest=nearest)
+
+
+def one_of(argument: str, what: str, given: object, known: Iterable[str]) -> str:
+    """A name that is one of those there are; of any other it is told which is nearest."""
+    names = list(known)
+    expected = f"{what} {', '.join(names)}"
+    if isinstance(given, str):
+        if given in names:
+            return given
+        raise wrong(argument, expected, repr(given), _core.nearest(given, names))
+    raise wrong(argument, expected, _core.described(given))

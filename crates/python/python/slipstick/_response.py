@@ -9,9 +9,10 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, overload
 
 from . import _core
+from ._arguments import checked
 from ._obspy import is_stream
 from ._records import named
-from ._request import a_model, wrong
+from ._request import wrong
 from ._result import figures_of, in_a_line, in_html, warn_of
 from ._table import Columns, Event, Events, Table
 
@@ -40,7 +41,11 @@ def run(
 ) -> Response: ...
 @overload
 def run(
-    model: _core.Model, motion: Mapping[str, Recorded] | Sequence[Recorded], *, floor_spectrum: bool = False
+    model: _core.Model,
+    motion: Mapping[str, Recorded] | Sequence[Recorded],
+    *,
+    floor_spectrum: bool = False,
+    check: bool = True,
 ) -> Assessment: ...
 @overload
 def run(
@@ -51,6 +56,7 @@ def run(
     history: bool = True,
     check: bool = True,
 ) -> Response | Assessment: ...
+@checked
 def run(
     model: _core.Model,
     motion: Records | None = None,
@@ -106,17 +112,14 @@ def run(
     True
     """
     if motion is not None and not isinstance(motion, _core.Motion):
-        a_model(model)
         of = named("motion", motion)
         if is_stream(motion) and len(of) == 1:
             return run(model, *of.values(), floor_spectrum=floor_spectrum, history=history, check=check)
         from ._assessment import suite
 
-        for name, asked in [("history", history), ("check", check)]:
-            if asked is not True:
-                raise wrong(name, "one motion beside it", f"{asked} with several")
-        return suite(model, of, floor_spectrum=floor_spectrum)
-    a_model(model)
+        if history is not True:
+            raise wrong("history", "one motion beside it", f"{history} with several")
+        return suite(model, of, floor_spectrum=floor_spectrum, check=check)
     core = _core.run(model, motion, floor_spectrum=floor_spectrum, history=history, check=check)
     warn_of(core._noticed())
     return Response(core, model, (floor_spectrum, history, check))
@@ -247,6 +250,7 @@ class Response:
         """The history as a dataset over ``time_s``, units as attributes."""
         return self.history.to_xarray()
 
+    @checked
     def report(self, path: str | PathLike[str], *, units: str = "si") -> Path:
         """Write the report of ``slipstick run --out`` as one HTML page.
 
@@ -261,6 +265,7 @@ class Response:
         target.write_text(self._core._report_html(units), encoding="utf-8")
         return target
 
+    @checked
     def save(self, folder: str | PathLike[str]) -> Path:
         """Write the files of ``slipstick run --out`` into a folder, and model and motion beside them.
 
@@ -289,6 +294,7 @@ class Response:
         return Path(folder)
 
     @classmethod
+    @checked
     def read(cls, folder: str | PathLike[str]) -> Response:
         """Compute the response anew that ``save`` has written into a folder.
 

@@ -5,29 +5,31 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
+from os import PathLike
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _core
+from ._arguments import check_arguments, checked
 from ._assessment import read_suite
 from ._errors import InputError, RecordError
+from ._names import renamed, tell
 from ._progress import following
 from ._records import Suite, components
-from ._request import a_model, several, text_of, wrong
+from ._request import several, text_of, wrong
 from ._result import svg_of, warn_of
 from ._table import Table, columns_of, is_frame, units_of, with_numbers
 
 if TYPE_CHECKING:
-    from os import PathLike
-
     from matplotlib.axes import Axes
 
     from ._progress import Progress
     from ._records import Records
 
 
-class Study(NamedTuple):
-    """What came of a study."""
+class _Results(NamedTuple):
+    """What a study gives, in its order."""
 
     #: One row a run
     table: Table
@@ -39,7 +41,25 @@ class Study(NamedTuple):
     #: What a person should know
     notices: list[str]
 
+
+class Study(_Results):
+    """What came of a study: its ``table`` of runs, its ``summary``, ``runs``, ``failures`` and ``notices``."""
+
+    _made_of: Mapping[str, str] = MappingProxyType({})
+
+    @property
+    def made_of(self) -> dict[str, str]:
+        """Which model and motions it is of: their digests; of files the SHA-256 of each."""
+        return dict(self._made_of)
+
     @classmethod
+    def _with(cls, results: _Results, made_of: Mapping[str, str]) -> Study:
+        study = cls(*results)
+        study._made_of = dict(made_of)
+        return study
+
+    @classmethod
+    @checked
     def read(cls, folder: str | PathLike[str]) -> Study:
         """Read what a study has written into its folder, without its plan.
 
@@ -56,10 +76,11 @@ class Study(NamedTuple):
         """
         read = _core.read_study(folder)
         assert read.table is not None and read.summary is not None
-        return cls(
-            Table._of(read.table), with_numbers(Table._of(read.summary)), read.runs, read.failures, read.notices
-        )
+        summary = with_numbers(Table._of(read.summary))
+        results = _Results(Table._of(read.table), summary, read.runs, read.failures, read.notices)
+        return cls._with(results, _hashes_of_files(Path(folder)))
 
+    @checked
     def plot(
         self,
         x: str | None = None,
@@ -125,8 +146,8 @@ class Plan:
         which it is where there are nothing but lists and no number of samples.
     correlation
         Correlations of pairs of paths: ``[["slider.radius", "storey.1.mass", 0.3]]``.
-    measure, levels, scale
-        Each record is scaled so that the measure, PGA if left out, takes each of the levels, ``["0.1 g", "0.2 g"]``,
+    measure, scale_to, scale
+        Each record is scaled so that the measure, PGA if left out, takes each of these values, ``["0.1 g", "0.2 g"]``,
         ``"0.1..0.4 g:4"`` or numbers in SI; or by each of the factors of ``scale``.
     bounds
         Which of the model's ``slider.bounds`` are run: ``"all"``, ``"lower"``, ``"nominal"``, ``"upper"``.
@@ -155,7 +176,7 @@ class Plan:
     seed: int | None = None
     method: str | None = None
     measure: str | None = None
-    levels: str | Sequence[str] | Sequence[float] | None = None
+    scale_to: str | Sequence[str] | Sequence[float] | None = None
     scale: Sequence[float] | None = None
     bounds: str | None = None
     name: str | None = None
@@ -164,14 +185,13 @@ class Plan:
     pairs: str | None = None
 
     def __post_init__(self) -> None:
-        a_model(self.model)
+        check_arguments(type(self).__annotations__, vars(self))
         if isinstance(self.records, Suite):
-            names = {"scale_to": "levels"}
-            own = {name: getattr(self, names.get(name, name)) for name in ("second", "measure", "scale_to", "scale", "pairs")}
+            own = {name: getattr(self, name) for name in ("second", "measure", "scale_to", "scale", "pairs")}
             filled = self.records.fill(own)
             filled["scale"] = [filled["scale"]] if isinstance(filled["scale"], (int, float)) else filled["scale"]
             for name, value in [("records", self.records.records), *filled.items()]:
-                object.__setattr__(self, names.get(name, name), value)
+                object.__setattr__(self, name, value)
         if self.records is not None:
             of_all = components("records", self.records, self.second)  # type: ignore[arg-type]
             for name, of in zip(("records", "second"), of_all, strict=True):
@@ -184,7 +204,7 @@ class Plan:
                 raise wrong("samples", "a number of samples beside distributions", "none")
             object.__setattr__(self, "method", "grid" if self.samples is None else "sobol")
         for arguments, beside, there in [
-            (("measure", "levels", "scale", "second"), "records", bool(self.records)),
+            (("measure", "scale_to", "scale", "second"), "records", bool(self.records)),
             (("pairs",), "second, or records in two directions,", self._of_pairs),
             (("samples", "seed", "correlation"), "vary", bool(self.vary)),
         ]:
@@ -193,6 +213,7 @@ class Plan:
                     raise wrong(name, f"{beside} beside it", repr(list(value) if isinstance(value, Mapping) else value))
 
     @classmethod
+    @checked
     def read(cls, path: str | PathLike[str]) -> Plan:
         """Read a plan file with its model and its records.
 
@@ -235,7 +256,7 @@ class Plan:
             seed=sampling.get("seed"),
             method=sampling.get("method", "sobol"),
             measure=records.get("measure"),
-            levels=records.get("levels"),
+            scale_to=records.get("levels"),
             scale=records.get("scale"),
             bounds=said.get("bounds"),
             name=said.get("name"),
@@ -243,6 +264,12 @@ class Plan:
             correlation=sampling.get("correlation"),
             pairs=records.get("pairs"),
         )
+
+    @property
+    def levels(self) -> str | Sequence[str] | Sequence[float] | None:
+        """The old name of ``scale_to``."""
+        tell("Plan.levels", "scale_to")
+        return self.scale_to
 
     @property
     def files(self) -> dict[str, str]:
@@ -286,6 +313,14 @@ class Plan:
         return [(file, name) for file, name, _ in self._named]
 
     @property
+    def _made_of(self) -> dict[str, str]:
+        records: Mapping[str, _core.Motion] = self.records or {}  # type: ignore[assignment]
+        second: Mapping[str, _core.Motion] = self.second or {}  # type: ignore[assignment]
+        of = [("model", self.model.digest)]
+        of += [(f"record {name}", motion.digest) for name, motion in records.items()]
+        return dict(of + [(f"second {name}", motion.digest) for name, motion in second.items()])
+
+    @property
     def digest(self) -> str:
         """A hash of all that goes in: equal plans have the same."""
         import hashlib
@@ -294,6 +329,7 @@ class Plan:
         noticed = [motion.warnings for _, _, motion in self._named]
         return hashlib.sha256(json.dumps([_core.__version__, self.files, noticed]).encode()).hexdigest()
 
+    @checked
     def write(self, folder: str | PathLike[str]) -> Path:
         """Write the files of the study and return the path of the plan, for ``slipstick study``."""
         for name, text in self.files.items():
@@ -311,13 +347,13 @@ class Plan:
         if self.records is not None:
             records = [_file("records", name) for name in self._motions[0]]
             second = [_file("second", name) for name in self._motions[1]] or None
-            levels: Any = self.levels
+            levels: Any = self.scale_to
             measure = self.measure if levels is None else self.measure or "PGA"
             if isinstance(levels, str):
                 levels = _core.levels(levels, measure or "")
             elif levels is not None:
                 unit = _core.unit_of_measure(measure or "")
-                levels = [text_of("levels", level, unit, row) for row, level in enumerate(levels)]
+                levels = [text_of("scale_to", level, unit, row) for row, level in enumerate(levels)]
             measured = {"measure": measure, "levels": levels, "scale": self.scale}
             pairs = {"second": second, "pairs": self.pairs}
             # A channel that is named is taken whatever its file is called: "up" is a name here.
@@ -330,6 +366,10 @@ class Plan:
         return "\n".join(text) + "\n"
 
 
+Plan.__init__ = renamed(levels="scale_to")(Plan.__init__)  # type: ignore[method-assign]
+
+
+@checked
 def study(
     plan: Plan | str | PathLike[str],
     out: str | PathLike[str] | None = None,
@@ -350,8 +390,8 @@ def study(
     jobs
         Number of threads; as many as the machine has if left out or -1.
     progress
-        Called with the runs done and planned, some twenty times a second; or a bar of tqdm, or its class. In a terminal a
-        line says how far the work is if left out, False is nobody.
+        Called with the runs done and planned, some twenty times a second; or a bar of tqdm, or its class. If left out, a
+        line says how far the work is in a terminal and below a cell of a notebook, once it takes a second; False is nobody.
     force
         Whether parts in the folder are removed first.
 
@@ -376,20 +416,30 @@ def study(
         def new_folder() -> Path:
             return Path(folders.enter_context(TemporaryDirectory(prefix="slipstick-")))
 
-        path = plan.write(new_folder()) if isinstance(plan, Plan) else Path(plan)
+        path = plan.write(new_folder()) if isinstance(plan, Plan) else _path_of(plan)
         folder = new_folder() if out is None else Path(out)
         named = plan._named if isinstance(plan, Plan) else []
         with _said_of(plan, path.parent), following(progress) as on:
             done = _core.study(path, folder, motions=named, jobs=jobs, progress=on, force=force)
-    table, summary = done.table, done.summary
-    assert table is not None and summary is not None
-    if done.failures:
-        warn_of([("failed_runs", f"{done.failures} of {done.runs} runs have no answer: their status says why", True)])
-    names = plan._names if isinstance(plan, Plan) else []
-    notices = [_by_name(notice, path.parent, names) for notice in done.notices]
-    return Study(Table._of(table), Table._of(summary), done.runs, done.failures, notices)
+        table, summary = done.table, done.summary
+        assert table is not None and summary is not None
+        if done.failures:
+            warn_of([("failed_runs", f"{done.failures} of {done.runs} runs have no answer: their status says why", True)])
+        names = plan._names if isinstance(plan, Plan) else []
+        notices = [_by_name(notice, path.parent, names) for notice in done.notices]
+        results = _Results(Table._of(table), Table._of(summary), done.runs, done.failures, notices)
+        return Study._with(results, plan._made_of if isinstance(plan, Plan) else _hashes_of_files(folder))
 
 
+def _hashes_of_files(folder: Path) -> dict[str, str]:
+    """The files that a study in a folder was made of, and the hash of each."""
+    import json
+
+    manifest = json.loads((folder / "manifest.json").read_text(encoding="utf-8"))
+    return {entry["path"]: entry["sha256"] for entry in manifest["inputs"]}
+
+
+@checked
 def run_shard(
     plan: Plan | str | PathLike[str], out: str | PathLike[str], shard: tuple[int, int], *, jobs: int | None = 1
 ) -> int:
@@ -407,17 +457,23 @@ def run_shard(
     from tempfile import TemporaryDirectory
 
     with TemporaryDirectory(prefix="slipstick-") as folder:
-        path = plan.write(folder) if isinstance(plan, Plan) else Path(plan)
+        path = plan.write(folder) if isinstance(plan, Plan) else _path_of(plan)
         named = plan._named if isinstance(plan, Plan) else []
         with _said_of(plan, path.parent):
             return _core.study(path, Path(out), motions=named, shard=shard, jobs=jobs).runs
+
+
+def _path_of(plan: object) -> Path:
+    if not isinstance(plan, (str, PathLike)):
+        raise wrong("plan", "a Plan, or the path of one", _core.described(plan))
+    return Path(plan)
 
 
 #: The column of a record of a plan of values
 _CHANNEL = "acceleration_m_per_s2"
 
 #: Arguments of a plan by its keys, where they have another name.
-_ARGUMENTS = {"records.files": "records", "sampling.count": "samples"}
+_ARGUMENTS = {"records.files": "records", "records.levels": "scale_to", "sampling.count": "samples"}
 
 
 def _by_name(text: str, folder: Path, names: list[tuple[str, str]]) -> str:
@@ -490,7 +546,7 @@ def _by_path(vary: Any) -> dict[str, Any]:
     if isinstance(vary, Mapping):
         return dict(vary)
     if not is_frame(vary):
-        raise wrong("vary", "values by path, {path: values}, or a frame of designs", type(vary).__name__)
+        raise wrong("vary", "values by path, {path: values}, or a frame of designs", _core.described(vary))
     units, columns = units_of(vary), columns_of(vary)
     found: dict[str, Any] = {}
     for path, values in columns:

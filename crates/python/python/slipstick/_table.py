@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, Self
 import numpy as np
 
 from . import _core
-from ._request import wrong
+from ._arguments import checked
+from ._request import one_of, wrong
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -56,10 +57,27 @@ class Table:
     """
 
     def __init__(self, frame: Any, units: Mapping[str, str] | None = None) -> None:
-        known = {**units_of(frame), **(units or {})}
-        columns = [_column(name, values, known.get(name, "")) for name, values in columns_of(frame)]
-        self._core = _core.Table._from_columns(columns)
+        self._core = self._of_frame("frame", frame, units)
         self._along, self._read = "row", dict[str, Any]()
+
+    @staticmethod
+    def _of_frame(argument: str, frame: Any, units: Mapping[str, str] | None) -> _core.Table:
+        if units is not None and not isinstance(units, Mapping):
+            raise wrong("units", "units by the names of columns", _core.described(units))
+        known = {**units_of(frame), **(units or {})}
+        columns = columns_of(frame, argument)
+        for name, values in columns:
+            if not hasattr(values, "__len__") or isinstance(values, (str, bytes, Mapping)) or np.ndim(values) == 0:
+                raise wrong(argument, f"values in column {name!r}", _core.described(values))
+            if len(values) != len(columns[0][1]):
+                expected = f"columns of one length, {len(columns[0][1])} as {columns[0][0]!r}"
+                raise wrong(argument, expected, f"{len(values)} in {name!r}")
+        return _core.Table._from_columns([_column(name, values, known.get(name, "")) for name, values in columns])
+
+    @classmethod
+    def _named(cls, argument: str, frame: Any) -> Self:
+        """A table of a frame that is an argument."""
+        return cls._of(cls._of_frame(argument, frame, None))
 
     @classmethod
     def _of(cls, core: _core.Table, along: str = "row") -> Self:
@@ -98,6 +116,7 @@ class Table:
         """Write the table as the text of a CSV file."""
         return self._core.to_csv()
 
+    @checked
     def write(self, path: str | PathLike[str]) -> Path:
         """Write the table as a file, CSV or Parquet by the end of its name; Parquet keeps units and every bit.
 
@@ -110,6 +129,7 @@ class Table:
         return Path(path)
 
     @classmethod
+    @checked
     def read(cls, path: str | PathLike[str]) -> Table:
         """Read a table in CSV or Parquet, such as the commands write.
 
@@ -148,6 +168,7 @@ class Table:
         index = {"time_s": of.pop("time_s")} if "time_s" in of else {}
         return xr.Dataset(of, coords=index)
 
+    @checked
     def plot(
         self, x: str | None = None, y: str | None = None, *, by: str | None = None, ax: Axes | None = None, **kwargs: Any
     ) -> Axes:
@@ -176,8 +197,8 @@ class Table:
             usual = [name for name in numbers if name.startswith("peak_sliding_displacement_m")]
             y = next(iter(usual + [name for name in reversed(numbers) if name != x]), None)
         for argument, name in [("x", x), ("y", y), ("by", by)]:
-            if name not in self and not (argument == "by" and name is None):
-                raise wrong(argument, f"a column among {', '.join(self)}", repr(name))
+            if argument != "by" or name is not None:
+                one_of(argument, "a column among", name, self)
         assert x is not None and y is not None
         return draw_table(self, x, y, by, ax, **kwargs)
 
@@ -190,7 +211,7 @@ class Table:
         return {name: values[last] for name, values in columns.items()}
 
     def __getitem__(self, name: str) -> Any:
-        if name not in self._read:
+        if not isinstance(name, str) or name not in self._read:
             values = self._core[name]
             if isinstance(values, np.ndarray):
                 values.flags.writeable = False
@@ -299,8 +320,15 @@ class Events(list[Event]):
         return self.table.__arrow_c_stream__(requested_schema)
 
 
-def columns_of(frame: Any) -> list[tuple[str, Any]]:
+def table_of(argument: str, frame: Any) -> Table:
+    """A frame of any library as a table."""
+    return frame if isinstance(frame, Table) else Table._named(argument, frame)
+
+
+def columns_of(frame: Any, argument: str = "frame") -> list[tuple[str, Any]]:
     """Names and values of the columns of any frame, of a history each time once."""
+    if not isinstance(frame, Mapping) and not is_frame(frame):
+        raise wrong(argument, "columns by name: a dict of arrays, or a frame of any library", _core.described(frame))
     if isinstance(frame, Table):
         return list(frame._once().items())
     if hasattr(frame, "to_dataframe"):  # xarray

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from ._arguments import checked
 from ._response import Response, run
 
 if TYPE_CHECKING:
@@ -97,6 +98,7 @@ class Regularisation:
         return ax
 
 
+@checked
 def regularisation(
     model: _core.Model,
     motion: _core.Motion,

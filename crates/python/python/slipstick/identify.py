@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal
 
 from . import _core
+from ._arguments import checked
 from ._laboratory import Identified, several
 from ._progress import following
 from ._request import given
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 __all__ = ["cyclic", "free_vibration", "shaking_table"]
 
 
+@checked
 def cyclic(
     tests: Measured | Sequence[Measured],
     *,
@@ -94,6 +96,7 @@ def cyclic(
     return _identified("cyclic", tests, model, locals())
 
 
+@checked
 def free_vibration(
     measured: Measured,
     *,
@@ -142,6 +145,7 @@ def free_vibration(
     return _identified("free-vibration", measured, model, locals())
 
 
+@checked
 def shaking_table(
     measured: Measured,
     model: _core.Model,
@@ -204,4 +208,4 @@ def _identified(
 ) -> Identified:
     asked_for = given(kind, asked)
     with following(progress) as on:
-        return Identified(_core.identify(kind, several(tests), model, asked_for, jobs=jobs, progress=on))
+        return Identified(_core.identify(kind, several(tests, "tests" if "tests" in asked else "measured"), model, asked_for, jobs=jobs, progress=on))

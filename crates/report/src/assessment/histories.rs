@@ -90,6 +90,7 @@ impl HistoriesReport<'_> {
         };
         let broken = every().flat_map(ModelHistories::unconfirmed).count();
         let certificate = match broken {
+            0 if !models.iter().all(|model| model.certifying) => "no run certified".to_owned(),
             0 => "every certificate holds".to_owned(),
             n => format!("{n} certificates do not hold"),
         };
@@ -485,6 +486,7 @@ impl HistoriesReport<'_> {
             all.push(Recorded {
                 name: on.record.clone(),
                 origin: on.origin.clone(),
+                motion_hash: Some(on.motion_hash.clone()),
                 factor: Some(on.scale),
                 pga_m_per_s2: on.pga_m_per_s2,
                 notices: on.notices.clone(),

@@ -46,6 +46,7 @@ impl Serialize for Summary {
         let bounds = self.bounds.as_ref().map(|bounds| {
             view! { bounds: view! { lower: &bounds.lower, upper: &bounds.upper } }
         });
+        let motion_hash = self.motion_hash.as_ref();
         view! {
             slipstick: self.slipstick,
             model: &self.model,
@@ -57,6 +58,7 @@ impl Serialize for Summary {
             friction_factor: self.friction_factor,
             record: view! {
                 #[serde(flatten)] origin: origin(&self.origin),
+                #[serde(flatten)] hash: motion_hash.map(|motion_hash| view! { motion_hash }),
                 factor: self.record_factor,
                 #[serde(flatten)] figures: figures(&self.record),
             },
@@ -121,6 +123,7 @@ pub(crate) fn suite(records: &[Recorded]) -> impl Serialize {
         view! {
             record: &on.name,
             #[serde(flatten)] origin: origin(&on.origin),
+            #[serde(flatten)] hash: on.motion_hash.as_ref().map(|motion_hash| view! { motion_hash }),
             scale: on.factor,
             pga_m_per_s2: on.pga_m_per_s2,
             notices: each(&on.notices, warning),

@@ -8,6 +8,9 @@ use crate::study::cases::HOLDS;
 use crate::table::{Cells, Column, Table};
 use crate::units::{Dimension, Unit, parse_unit};
 
+/// Columns that counts and capacities are made of.
+const KNOWN: [&str; 5] = ["level", "exceeded", "runs", "capacity", "reached"];
+
 /// A table whose columns are asked for by name.
 #[derive(Clone, Copy)]
 pub(super) struct Columns<'a> {
@@ -64,15 +67,23 @@ impl<'a> Columns<'a> {
         self.first_text("measure_unit").filter(|_| of_levels)
     }
 
-    /// The error for a column that is not there, with the nearest that is.
+    /// The error for a column that is not there, with the nearest that is; where none is near, that of a column whose
+    /// name is nearly one of those that a fragility is made of.
     pub(super) fn lacking(self, what: &str, name: &str) -> AssessmentError {
-        let names = self.table.columns.iter().map(|column| column.name.as_str());
-        AssessmentError::Choice(ChoiceError {
-            what: what.to_owned(),
-            expected: format!("a column of {}", self.source_name),
-            found: format!("{name:?}"),
-            nearest: similar(name, names),
-        })
+        let names = || self.table.columns.iter().map(|column| column.name.as_str());
+        let nearest = similar(name, names());
+        let missing = || KNOWN.into_iter().filter(|known| !self.has(known));
+        let meant = |column: &str| Some((column.to_owned(), similar(column, missing())?));
+        let misnamed = names().filter(|column| !KNOWN.contains(column)).find_map(meant);
+        let (what, expected, found, nearest) = match misnamed.filter(|_| nearest.is_none()) {
+            Some((column, meant)) => {
+                let expected = format!("a column among {}, or a demand", KNOWN.join(", "));
+                ("SOURCE", expected, column, Some(meant))
+            }
+            None => (what, format!("a column of {}", self.source_name), name.to_owned(), nearest),
+        };
+        let (what, found) = (what.to_owned(), format!("{found:?}"));
+        AssessmentError::Choice(ChoiceError { what, expected, found, nearest })
     }
 
     /// The record of each row, where the table says it.
