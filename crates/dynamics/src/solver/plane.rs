@@ -44,7 +44,7 @@ use crate::error::SolveError;
 use crate::linear::polynomial::ZERO;
 use crate::numerics::InstructionSet;
 use crate::response::{EventInPlane, EventKind, Mode};
-use crate::slider::{Contact, Direction};
+use crate::slider::{Contact, Direction, Ring};
 
 pub(super) use self::straight::{OnLine, on_line, solve};
 pub(super) use self::system::System;
@@ -334,6 +334,10 @@ impl<'a> Events for Walk<'a, Plane<'a>> {
         };
         let (course, phase) = (&mut self.course, &mut self.phase);
         let direction = match due {
+            Due::GoOn(direction) if phase.sets_out_against_stop(direction) => {
+                self.change_contact(stretch, at_s, Ring::PRESSED);
+                return true;
+            }
             Due::GoOn(direction) => {
                 (phase.direction, phase.starts) = (direction, true);
                 return true;

@@ -75,8 +75,8 @@ impl<'a> Walk<'a, Plane<'a>> {
         let outward = [before, self.phase.rebound(n, (1.0 + e) * speed)]
             .map(|along| self.phase.outward(&loads, n, along));
         let end_s = self.ground.times_s[self.ground.times_s.len() - 1];
-        let bears =
-            outward[1] > 0.0 && (e == 0.0 || self.is_last_bounce((ring, e), outward, end_s));
+        let ends = e == 0.0 || speed == 0.0 || self.is_last_bounce((ring, e), outward, end_s);
+        let bears = outward[1] > 0.0 && ends;
         if bears {
             let off = inner(n, self.phase.state.w);
             let along = self.phase.rebound(n, off);

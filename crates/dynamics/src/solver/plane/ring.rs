@@ -128,6 +128,13 @@ impl Plane<'_> {
         self.state.w = [0, 1].map(|k| self.state.w[k] - off * n[k]);
     }
 
+    /// Whether a block at rest, but for rounding at a stop that does not give way, is off to push it in a direction.
+    pub(super) fn sets_out_against_stop(&self, direction: [f64; 2]) -> bool {
+        let (Some(off_m2), Some(ring)) = (self.off_stop_m2, self.system.ring) else { return false };
+        let is_at_it = off_m2.abs() <= 8.0 * f64::EPSILON * (ring.gap_m * ring.gap_m);
+        is_at_it && self.state.contact == Contact::Free && inner(self.state.s, direction) > 0.0
+    }
+
     /// As much of a time as a step takes, which against the stop bends with its own frequency.
     pub(super) fn within_reach_of_stop(&self, left_s: f64) -> f64 {
         let [stiffness, damper] = self.system.stop_per_kg(self.state.contact);
@@ -294,10 +301,12 @@ impl Plane<'_> {
         change.filter(|(part, _)| *part > 0.0)
     }
 
-    /// A block that is at a stop and leaves it is not off it by rounding, nor does rounding move it towards it.
+    /// A block that is at a stop and leaves it is not off it by rounding, nor does rounding move it towards it: what is left
+    /// of a fast velocity that it had may be more than rounding of a slow one that it has.
     fn leave_stop(&self, distance: &mut Polynomial) {
         let State { s, w, .. } = &self.state;
-        if distance[0] == 0.0 && inner(*s, *w).abs() <= 8.0 * f64::EPSILON * norm(*s) * norm(*w) {
+        let is_rounding = inner(*s, *w).abs() <= 8.0 * f64::EPSILON * norm(*s) * norm(*w);
+        if distance[0] == 0.0 && (is_rounding || distance[1] < 0.0) {
             distance[1] = 0.0;
             distance[2] = distance[2].max(0.0);
         }
