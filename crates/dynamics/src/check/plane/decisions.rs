@@ -88,7 +88,12 @@ impl<'a> PlaneJudge<'a> {
         }
         let Some(from) = self.last_heading(k) else { return };
         if is_led {
-            self.axes.peaks.see(&tracked, &acting, Some(from));
+            // One that comes to rest off a stop, and then bears on it, has not slid along it.
+            let is_along = self.axes.line.is_some() || sine(from, self.place(k)) > 1.0 - 1e-6;
+            match is_along {
+                true => self.axes.peaks.see(&tracked, &acting, Some(from)),
+                false => self.axes.peaks.turn(&tracked, &acting, Some([from; 2]), false),
+            }
             return;
         }
         let Some(to) = self.last_direction(from, push, f) else { return };
