@@ -72,6 +72,11 @@ impl LocalMinima {
         minimum
     }
 
+    /// The next values may be off those before by so much.
+    pub(super) fn widen(&mut self, slack: f64) {
+        self.slack = self.slack.max(slack);
+    }
+
     /// When the value was last that at which it may turn.
     pub(super) fn turn_s(&self) -> f64 {
         self.turn_s

@@ -117,7 +117,9 @@ impl<'a> PlaneJudge<'a> {
             let end = [path.state.x[i], path.state.v[i]];
             self.arrive((k + 1, i), end, [path.fastest[i], path.rates[i]], state_rounding);
         }
-        self.axes.arrived = norm(path.state.speed());
+        let (end, stored) = (path.state.speed(), self.state(k + 1).speed());
+        self.dips[0].widen(norm([end[0] - stored[0], end[1] - stored[1]]));
+        self.axes.arrived = norm(end);
         if self.ground.has_vertical() {
             let speed: f64 = path.fastest.iter().sum();
             let moved = path.fastest[0].max(path.fastest[1]) * length_s;
@@ -433,12 +435,16 @@ impl<'a> PlaneJudge<'a> {
         }
     }
 
-    /// Whether a step is near rest in a slip that was straight when it came there.
+    /// Whether a step is near rest in a slip that was straight when it came there, or that bounces off a stop, after which
+    /// the direction of a slow velocity is what rounding has left of a fast one.
     fn is_straight_near_rest(&mut self, step: &Step) -> bool {
         let is_near = step.slips && step.quickest < NEAR_REST * self.dips[0].peak();
         if self.axes.line.is_some() || !is_near {
             self.axes.near_rest = None;
             return false;
+        }
+        if self.frame().wall().is_some() && !step.stretch.pressed {
+            return true;
         }
         if self.axes.near_rest.is_none() {
             let slowing = self.frame().slowing(&step.stretch.loads[0], step.speeds[0]);

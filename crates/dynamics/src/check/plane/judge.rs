@@ -159,7 +159,8 @@ impl<'a> PlaneJudge<'a> {
     /// By how much the contact at a knot breaks the law of the stop at a place with a velocity.
     pub(super) fn contact_excess(&self, k: usize, s: Pair, w: Pair) -> f64 {
         let Some(stop) = self.frame().stop.filter(|stop| !stop.is_rigid) else { return 0.0 };
-        let slack_m = self.instant_s * norm(w) + 8.0 * f64::EPSILON * self.figures.displacement[1];
+        let most_m = self.figures.displacement[1].max(stop.gap_m);
+        let slack_m = self.instant_s * norm(w) + 8.0 * f64::EPSILON * most_m;
         let slack = [slack_m, stop.damper * self.velocity_rounding];
         self.law.contact_excess(self.contact(k), along_radius(s, w), slack)
     }
