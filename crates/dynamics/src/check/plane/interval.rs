@@ -435,16 +435,12 @@ impl<'a> PlaneJudge<'a> {
         }
     }
 
-    /// Whether a step is near rest in a slip that was straight when it came there, or that bounces off a stop, after which
-    /// the direction of a slow velocity is what rounding has left of a fast one.
+    /// Whether a step is near rest in a slip that was straight when it came there.
     fn is_straight_near_rest(&mut self, step: &Step) -> bool {
         let is_near = step.slips && step.quickest < NEAR_REST * self.dips[0].peak();
         if self.axes.line.is_some() || !is_near {
             self.axes.near_rest = None;
             return false;
-        }
-        if self.frame().wall().is_some() && !step.stretch.pressed {
-            return true;
         }
         if self.axes.near_rest.is_none() {
             let slowing = self.frame().slowing(&step.stretch.loads[0], step.speeds[0]);
