@@ -53,22 +53,20 @@ impl LocalMinima {
     pub(super) fn feed(&mut self, time_s: f64, value: f64) -> Option<f64> {
         self.peak = self.peak.max(value);
         let onward = if self.falling { value <= self.turn } else { value >= self.turn };
-        let mut minimum = None;
         if onward || self.turn.is_nan() {
             (self.turn, self.turn_s) = (value, time_s);
             return None;
         }
-        if self.falling {
-            self.shallow = self.shallow.min(self.turn);
+        let minimum = self.falling.then_some(self.turn);
+        self.shallow = minimum.map_or(self.shallow, |turn| self.shallow.min(turn));
+        if !((value - self.turn).abs() > self.slack) {
+            return None;
         }
-        if (value - self.turn).abs() > self.slack {
-            if self.falling {
-                self.take(self.turn_s, self.turn);
-                minimum = Some(self.turn);
-            }
-            self.falling = !self.falling;
-            (self.turn, self.turn_s) = (value, time_s);
+        if let Some(turn) = minimum {
+            self.take(self.turn_s, turn);
         }
+        self.falling = !self.falling;
+        (self.turn, self.turn_s) = (value, time_s);
         minimum
     }
 

@@ -523,7 +523,8 @@ impl<'a> Stepper<'a> {
         let mut r = norm(w);
         // Along a stop that does not give way what is left of a velocity across it is rounding.
         let along_wall = asks.stop.filter(|stop| stop.is_rigid).map(|_| {
-            let (along, way) = (along_wall(s), dot(along_wall(s), w));
+            let along = along_wall(s);
+            let way = dot(along, w);
             r = way.abs();
             times(along, way.signum())
         });
