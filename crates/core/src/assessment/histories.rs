@@ -54,6 +54,8 @@ pub struct Kept<'a> {
     pub floor_spectra: bool,
     /// Names of the records whose histories are wanted.
     pub histories_of: &'a [&'a str],
+    /// Whether no run is judged: demands alone, in less time.
+    pub without_certificates: bool,
 }
 
 /// The run of a record whose history was asked for.
@@ -392,36 +394,6 @@ pub fn run_histories(
     kept: Kept<'_>,
     engine: &Engine<'_>,
 ) -> Result<Histories, AssessmentError> {
-    histories(models, scaling, kept, Certifying::Every, engine)
-}
-
-/// The same where no run is judged: demands alone, in less time.
-///
-/// # Errors
-/// As [`run_histories`].
-pub fn run_uncertified_histories(
-    models: &[ModelOn<'_>],
-    scaling: &Scaling,
-    kept: Kept<'_>,
-    engine: &Engine<'_>,
-) -> Result<Histories, AssessmentError> {
-    histories(models, scaling, kept, Certifying::None, engine)
-}
-
-/// Which runs are judged.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Certifying {
-    Every,
-    None,
-}
-
-fn histories(
-    models: &[ModelOn<'_>],
-    scaling: &Scaling,
-    kept: Kept<'_>,
-    certifying: Certifying,
-    engine: &Engine<'_>,
-) -> Result<Histories, AssessmentError> {
     for name in kept.histories_of {
         known(name, models)?;
     }
@@ -437,11 +409,7 @@ fn histories(
             let (record, bound) = (i / bounds.len(), i % bounds.len());
             Case { record, bound, scale: factors[record], ..Case::default() }
         };
-        // What is kept has its certificate.
-        let hashes = match certifying {
-            Certifying::Every => hashes(model.suite, kept, engine)?,
-            Certifying::None => Vec::new(),
-        };
+        let hashes = hashes(model.suite, kept, engine)?;
         let run = |i: usize| {
             let (case, bound) = (case(i), &bounds[i % bounds.len()]);
             let keeper = keeper(model, (&case, bound), &hashes, engine);
@@ -449,10 +417,10 @@ fn histories(
             if let Some(run) = before.and_then(|line| kept::read(&line)) {
                 return CaseRun::of(case, Ok(run));
             }
-            let figures = match certifying {
-                Certifying::Every => with_bound(model, &case, bound, kept.floor_spectra, engine)
+            let figures = match kept.without_certificates {
+                true => unjudged(model, &case, bound, kept.floor_spectra, engine),
+                false => with_bound(model, &case, bound, kept.floor_spectra, engine)
                     .map(|judged| RunFigures::of(bound, judged)),
-                Certifying::None => unjudged(model, &case, bound, kept.floor_spectra, engine),
             };
             let ran = figures.map(|figures| {
                 let alone = alone::of(model, &case, bound, engine).ok().flatten();
@@ -479,7 +447,7 @@ fn histories(
             travels_m: slider.surfaces().iter().map(|on| on.travel_m).collect(),
             stop_m: slider.stop_m(),
             levels_m: profiles::levels_m(&model.analysis.model),
-            certifying: certifying == Certifying::Every,
+            certifying: !kept.without_certificates,
             governing_history: None,
             lateral: match scaling {
                 Scaling::Target(spectrum, _) => lateral(model.analysis, spectrum),
@@ -529,7 +497,9 @@ fn hashes(
     kept: Kept<'_>,
     engine: &Engine<'_>,
 ) -> Result<Vec<Option<String>>, Stopped> {
-    let keeps = engine.kept().is_some() && !kept.floor_spectra;
+    // What is kept has its certificate.
+    let whole = !kept.floor_spectra && !kept.without_certificates;
+    let keeps = engine.kept().is_some() && whole;
     let count = if keeps { suite.records.len() } else { 0 };
     engine.map(count, |i| Ok(hash_of_record(&suite.records[i])))
 }
@@ -628,24 +598,23 @@ struct RunFigures {
 impl RunFigures {
     fn of(bound: &Bound, (job, outcome): (Job, Outcome)) -> Self {
         let Outcome { nominal, floor_spectra, .. } = outcome;
-        let Judged { model, response, certificate, .. } = nominal;
+        let Judged { response, certificate, .. } = nominal;
         let judged = response.method != Method::Stepwise;
         let defect = (judged && !certificate.holds()).then(|| {
             let names = certificate.defects().into_iter().map(|(name, _)| name);
             names.collect::<Vec<_>>().join(", ")
         });
         let largest = judged.then(|| certificate.largest());
-        Self { defect, largest, ..Self::unjudged(bound, job, &model, response, floor_spectra) }
+        Self { defect, largest, ..Self::unjudged(bound, job, response, floor_spectra) }
     }
 
     fn unjudged(
         bound: &Bound,
         job: Job,
-        model: &Model,
         response: Response,
         floor_spectra: Option<FloorSpectra>,
     ) -> Self {
-        let nominal = *bound == Bound::NOMINAL;
+        let (nominal, model) = (*bound == Bound::NOMINAL, &job.analysis.model);
         let sliding = if nominal { sliding(&response) } else { None };
         let met = struck(model, &response.demands).into_iter();
         let met = met.chain(flat_geometry(model, &response.demands));
@@ -720,8 +689,7 @@ fn unjudged(
     let motion = model.suite.motion(case.record, case.scale, 0.0)?;
     let job = job(model.analysis, motion, bound)?;
     let (response, spectra) = engine.watch(|go_on| job.solve_while(floor_spectra, go_on))?;
-    let of = job.analysis.model.clone();
-    Ok(RunFigures::unjudged(bound, job, &of, response, spectra))
+    Ok(RunFigures::unjudged(bound, job, response, spectra))
 }
 
 /// A model with a bound of friction on a motion.

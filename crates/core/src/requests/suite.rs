@@ -6,9 +6,7 @@ use crate::assessment::code::{
     Code, Judged, Judgement, Plan, PropertyFactors, bounds_of, judge, named,
 };
 use crate::assessment::grid::levels;
-use crate::assessment::histories::{
-    Histories, Kept, ModelOn, bounds, lateral, run_histories, run_uncertified_histories,
-};
+use crate::assessment::histories::{Histories, Kept, ModelOn, bounds, lateral, run_histories};
 use crate::assessment::lateral::LateralForce;
 use crate::assessment::models::Models;
 use crate::assessment::suite::{Scaling, times};
@@ -72,12 +70,10 @@ impl Request {
             .collect();
         let histories_of: Vec<&str> = self.all("history-of").collect();
         let floor_spectra = self.given("floor-spectrum").is_some();
-        let kept = Kept { floor_spectra, histories_of: &histories_of };
+        let without_certificates = !self.certifies;
+        let kept = Kept { floor_spectra, histories_of: &histories_of, without_certificates };
         let at = |scaling: &Scaling, hazard: Option<&str>, further: bool, kept: Kept<'_>| {
-            let mut histories = match self.certifies {
-                true => run_histories(&on, scaling, kept, engine)?,
-                false => run_uncertified_histories(&on, scaling, kept, engine)?,
-            };
+            let mut histories = run_histories(&on, scaling, kept, engine)?;
             let judged = code.as_ref().map(|code| {
                 let besides = Besides { code, plan, hazard, further };
                 judgements(&mut histories, &analyses, scaling, &besides)

@@ -201,7 +201,7 @@ fn frame(in_plane: bool) -> Analysis {
 
 fn over(suite: &Suite, analysis: &Analysis, histories_of: &[&str]) -> Histories {
     let on = ModelOn { name: "m", analysis, suite };
-    let kept = Kept { floor_spectra: true, histories_of };
+    let kept = Kept { floor_spectra: true, histories_of, ..Kept::default() };
     run_histories(&[on], &Scaling::Factor(SCALE), kept, &Engine::unwatched()).expect("runs")
 }
 
@@ -355,7 +355,7 @@ fn chosen_histories_are_those_of_single_runs() {
     }
     let (suite, analysis) = (suite(3, false), frame(false));
     let on = ModelOn { name: "m", analysis: &analysis, suite: &suite };
-    let kept = Kept { floor_spectra: false, histories_of: &["r4"] };
+    let kept = Kept { histories_of: &["r4"], ..Kept::default() };
     let refused = run_histories(&[on], &Scaling::Factor(1.0), kept, &Engine::unwatched());
     let message = refused.expect_err("no such record").to_string();
     let expected =

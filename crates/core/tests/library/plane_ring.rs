@@ -227,7 +227,7 @@ fn drawn_are_certified(seeds: core::ops::Range<u64>, walls_each: u64) {
 /// time to tell, a corner of friction, minima that slack hides, an impact that lasts no time.
 #[test]
 fn walls_that_once_raised_an_alarm_raise_none() {
-    for seed in [67, 382, 392, 449, 502, 1262] {
+    for seed in [67, 382, 392, 449, 502, 628, 1262] {
         certified(seed, &drawn(seed).with_wall(seed));
     }
 }

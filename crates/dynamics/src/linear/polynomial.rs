@@ -284,6 +284,15 @@ pub fn largest(c: &Polynomial, to: f64, attained: f64) -> f64 {
     peak.attained
 }
 
+/// Raises a peak to the polynomial's largest size on [0, `to`], to a few ulp; `to` is at most 1.
+pub fn raise_to_size(peak: &mut f64, c: &Polynomial, to: f64) {
+    let ends = c[0].abs().max(value(c, to).abs());
+    *peak = peak.max(ends);
+    if ends + 0.125 * curvature_bound(c) * (to * to) > *peak {
+        *peak = largest(&c.map(|c| -c), to, largest(c, to, *peak));
+    }
+}
+
 struct Peak<'a> {
     c: &'a Polynomial,
     slope: &'a Polynomial,

@@ -2,6 +2,7 @@
 
 use super::rate::Coefficient;
 use super::{Contact, Direction, Pressing};
+use crate::linear::polynomial::Polynomial;
 
 /// A stiffness and a damper between ground and block.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -139,6 +140,15 @@ impl Exit {
 }
 
 impl SlipForce {
+    /// Coefficient of an order of `N (of_normal + of_normal_s s)`, from those of `s` up to it and both of `N`.
+    #[inline(always)]
+    pub(crate) fn of_normal_of_order(&self, k: usize, [n0, n1]: [f64; 2], s: &Polynomial) -> f64 {
+        let [p0, p1] = [self.of_normal, self.of_normal_s];
+        let first = if k == 0 { 1.0 } else { 0.0 };
+        let second = if k == 1 { p0 } else { 0.0 };
+        n0 * (p0 * first + p1 * s[k]) + if k > 0 { n1 * (second + p1 * s[k - 1]) } else { 0.0 }
+    }
+
     /// The force under a constant normal force, as tables take it.
     #[inline(always)]
     pub(crate) fn affine(&self, normal_n: f64) -> Affine {

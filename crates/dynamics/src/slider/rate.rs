@@ -3,6 +3,7 @@
 use super::Direction;
 use super::ranges::{in_range, not_negative};
 use crate::error::ModelError;
+use crate::linear::polynomial::Polynomial;
 
 /// How a coefficient of friction depends on the sliding speed `v = |ṡ|`.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,6 +62,16 @@ impl Coefficient {
             Self::Exponential { fast, drop, rate_s_per_m } => {
                 fast - drop * libm::exp(-rate_s_per_m * speed_m_per_s)
             }
+        }
+    }
+
+    /// Its coefficient of an order of the time, from that of the speed and those of `e^(−rate v)`.
+    #[inline(always)]
+    pub(crate) fn of_order(&self, k: usize, speed: f64, decay: &Polynomial) -> f64 {
+        let first = if k == 0 { 1.0 } else { 0.0 };
+        match *self {
+            Self::Linear { at_rest, slope_s_per_m } => at_rest * first + slope_s_per_m * speed,
+            Self::Exponential { fast, drop, .. } => fast * first - drop * decay[k],
         }
     }
 }

@@ -48,12 +48,7 @@ pub(super) fn solve(
     go_on: Cancel<'_>,
 ) -> Result<Response, SolveError> {
     let law = model.law(motion.vertical_m_per_s2().is_some());
-    // What jumps, what remembers, and what slides besides the block.
-    let contents = (!model.contents().is_empty()).then_some("contents");
-    let what = law.beyond_samples().or(contents);
-    if let Some(what) = what {
-        return Err(SolveError::NotTaken { method: "stepwise method", what });
-    }
+    is_taken(model, &law)?;
     recorder::fits(model, motion.len())?;
     let system = system_of(model);
     let program = Program::new(model, motion, (&system, &law), tolerance_m_per_s2);
@@ -123,6 +118,13 @@ pub(super) fn solve(
         warnings,
         in_plane: None,
     })
+}
+
+/// What jumps, what remembers, and what slides besides the block is not taken.
+fn is_taken(model: &Model, law: &Law<'_>) -> Result<(), SolveError> {
+    let contents = (!model.contents().is_empty()).then_some("contents");
+    let what = law.beyond_samples().or(contents);
+    what.map_or(Ok(()), |what| Err(SolveError::NotTaken { method: "stepwise method", what }))
 }
 
 /// The event that a change of mode is.

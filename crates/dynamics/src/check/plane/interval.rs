@@ -6,6 +6,7 @@ use super::super::structure::{excess, larger};
 use super::decisions::is_straight;
 use super::frame::{Loads, Pair, State, dot, norm, pair, unit};
 use super::judge::{Place, PlaneJudge};
+use super::peaks::Tracked;
 use super::step::{FINE, Step, Stretch, time_to_rest};
 use crate::error::Stopped;
 use crate::numerics::instructions::vectorize;
@@ -407,11 +408,15 @@ impl<'a> PlaneJudge<'a> {
         if path.rested_s.is_some() {
             return;
         }
-        if self.is_straight_near_rest(step) {
+        let straight = self.is_straight_near_rest(step);
+        let turns = straight || self.bounces_near_rest(step);
+        let tracked = Tracked { turns, ..self.tracked() };
+        if turns {
             let acting = self.acting(&path.state, &step.stretch.at(step_s));
-            self.axes.peaks.turn(&self.tracked(), &acting, None, false);
-        } else {
-            self.look(step, 0);
+            self.axes.peaks.turn(&tracked, &acting, None, false);
+        }
+        if !straight {
+            self.look(&tracked, step, 0);
         }
     }
 
@@ -435,10 +440,20 @@ impl<'a> PlaneJudge<'a> {
         }
     }
 
+    /// Whether a step passes so near rest that rounding may tell its direction.
+    fn is_near_rest(&self, step: &Step) -> bool {
+        let is_near = step.slips && step.quickest < NEAR_REST * self.dips[0].peak();
+        is_near && self.axes.line.is_none()
+    }
+
+    /// Whether a step is near rest beside a wall off which it comes: bounces make rounding of one part a direction.
+    fn bounces_near_rest(&self, step: &Step) -> bool {
+        self.frame().wall().is_some() && !step.acting.under.pressed && self.is_near_rest(step)
+    }
+
     /// Whether a step is near rest in a slip that was straight when it came there.
     fn is_straight_near_rest(&mut self, step: &Step) -> bool {
-        let is_near = step.slips && step.quickest < NEAR_REST * self.dips[0].peak();
-        if self.axes.line.is_some() || !is_near {
+        if !self.is_near_rest(step) {
             self.axes.near_rest = None;
             return false;
         }
@@ -463,10 +478,9 @@ impl<'a> PlaneJudge<'a> {
     }
 
     /// Raises the peaks by a step, by parts of it where it is too coarse to tell one.
-    fn look(&mut self, step: &Step, depth: u32) {
-        let tracked = self.tracked();
+    fn look(&mut self, tracked: &Tracked<'_>, step: &Step, depth: u32) {
         let coarse = step.tail > FINE && depth < DEEPEST;
-        if self.axes.peaks.follow(self.axes.stepper.rule, &tracked, step, coarse) {
+        if self.axes.peaks.follow(self.axes.stepper.rule, tracked, step, coarse) {
             return;
         }
         let half_s = 0.5 * step.stretch.step_s;
@@ -480,11 +494,11 @@ impl<'a> PlaneJudge<'a> {
         });
         match &halves {
             [Some(first), Some(second)] => {
-                self.look(first, depth + 1);
-                self.look(second, depth + 1);
+                self.look(tracked, first, depth + 1);
+                self.look(tracked, second, depth + 1);
             }
             _ => {
-                self.axes.peaks.follow(self.axes.stepper.rule, &tracked, step, false);
+                self.axes.peaks.follow(self.axes.stepper.rule, tracked, step, false);
             }
         }
     }

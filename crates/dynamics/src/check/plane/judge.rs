@@ -119,7 +119,7 @@ impl<'a> PlaneJudge<'a> {
 
     pub(super) fn tracked(&self) -> Tracked<'a> {
         let Plane { stepper: Stepper { frame, instructions, .. }, line, .. } = self.axes;
-        Tracked { frame, outputs: self.outputs, instructions, line }
+        Tracked { frame, outputs: self.outputs, instructions, line, turns: false }
     }
 
     /// The mode at a knot.

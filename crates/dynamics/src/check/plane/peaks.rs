@@ -101,11 +101,20 @@ pub(super) struct Tracked<'a> {
     pub(super) instructions: InstructionSet,
     /// The direction of the one line on which all moves, if it does.
     pub(super) line: Option<Pair>,
+    /// Whether rounding tells the direction of friction: what it decides is not looked for.
+    pub(super) turns: bool,
 }
 
 impl Tracked<'_> {
     fn len(&self) -> usize {
         self.outputs.len() + 1
+    }
+
+    /// The outputs that the direction of friction decides: those of points too where it does not push along itself.
+    fn by_direction(&self) -> impl Iterator<Item = usize> + use<> {
+        let n = self.outputs.points();
+        let points = if self.frame.body.is_one() { 0 } else { n };
+        BY_DIRECTION.into_iter().chain((0..points).map(move |i| Output::Acceleration(i).place(n)))
     }
 
     /// On one line, as in one direction, friction takes what it can of the push of a block at rest against a stop that does
@@ -282,7 +291,7 @@ impl Peaks {
             tracked.vectors(acting, Some(u.map(|u| [u])), &mut vectors);
             self.see_corner(tracked, pair(&vectors[OVERTURNING], 0), certain);
             let to = if certain { &mut self.largest } else { &mut self.possible };
-            for g in BY_DIRECTION {
+            for g in tracked.by_direction() {
                 for (view, size) in sizes(pair(&vectors[g], 0)).into_iter().enumerate() {
                     to[view][g] = larger(to[view][g], size);
                 }
@@ -312,7 +321,6 @@ impl Peaks {
         for (i, vectors) in all.iter_mut().enumerate() {
             at(i as f64 / LOOKS as f64, vectors);
         }
-        let n = tracked.outputs.points();
         let mut vectors = Vec::new();
         if let Some(per) = tracked.frame.per_resisted {
             let sum = |moments: Pair| (per[0] * moments[0]).abs() + (per[1] * moments[1]).abs();
@@ -325,7 +333,7 @@ impl Peaks {
             *to = larger(*to, most);
         }
         let to = if certain { &mut self.largest } else { &mut self.possible };
-        for g in BY_DIRECTION.into_iter().chain((0..n).map(|i| Output::Acceleration(i).place(n))) {
+        for g in tracked.by_direction() {
             for view in 0..3 {
                 let size = |i: usize| sizes(pair(&all[i][g], 0))[view];
                 let most = largest_along(size, LOOKS, |part| {
@@ -391,7 +399,7 @@ impl Peaks {
         at: &[[Column<POINTS>; 2]],
         coarse: bool,
     ) -> bool {
-        if let Some(per) = tracked.frame.per_resisted {
+        if let Some(per) = tracked.frame.per_resisted.filter(|_| !tracked.turns) {
             let moments = &at[OVERTURNING];
             for sign in [1.0, -1.0] {
                 let sum: Column<POINTS> = core::array::from_fn(|i| {
@@ -404,9 +412,10 @@ impl Peaks {
                 }
             }
         }
+        let left: Vec<_> = tracked.by_direction().filter(|_| tracked.turns).collect();
         for (g, parts) in at.iter().enumerate() {
             let is_place = g + 1 == tracked.len();
-            if !is_place && self.is_below(g, parts) {
+            if !is_place && (left.contains(&g) || self.is_below(g, parts)) {
                 continue;
             }
             let part = |axis: usize, t: f64| rule.interpolate(&parts[axis], t);

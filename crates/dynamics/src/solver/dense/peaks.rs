@@ -5,10 +5,10 @@ use fearless_simd::{f64x4, f64x8};
 
 use super::ahead::Ahead;
 use super::event::Segment;
-use super::lanes::{Abreast, Eight, Four, eight, greatest, larger};
+use super::lanes::{Abreast, Eight, Four, eight, greatest};
 use super::outputs::{Kept, REGISTERS, above, by_register, each, kept, larger_sizes, loaded, plus};
 use super::series::{Span, StoreySeries};
-use crate::linear::polynomial::{ZERO, largest};
+use crate::linear::polynomial::{ZERO, raise_to_size};
 use crate::response::Mode;
 use crate::response::output;
 use crate::solver::chords::bound_between;
@@ -283,18 +283,9 @@ impl<S: Simd> Ahead<'_, '_, S> {
         let input = if SLIP { [force_n; 2] } else { [a, a + change * rest] };
         let (first, last) = (of.at(simd, segment.x, input[0]), of.at(simd, end, input[1]));
         let slack = of.slack(simd, self.slack::<SLIP>(&series, rest).to_array());
-        // A peak on the upper side, and on the lower one.
-        let most = by_register(
-            #[inline(always)]
-            |g| larger(first[g], last[g]) + slack[g],
-        );
-        let least = by_register(
-            #[inline(always)]
-            |g| larger(-first[g], -last[g]) + slack[g],
-        );
-        let (upper, lower) = (above(most, self.peak), above(least, self.peak));
-        let mut open = upper | lower;
-        self.peak = larger_sizes(self.peak, larger_sizes(first, last));
+        let sizes = larger_sizes(first, last);
+        let mut open = above(plus(sizes, slack), self.peak);
+        self.peak = larger_sizes(self.peak, sizes);
         let (mut peak, first) = (kept(self.peak), kept(first));
         while open != 0 {
             let j = open.trailing_zeros() as usize;
@@ -310,13 +301,7 @@ impl<S: Simd> Ahead<'_, '_, S> {
                 let of_input = if SLIP || k > 0 { 0.0 } else { of.of_input[g].0[lane] * change };
                 p[k + 1] = (of_state + of_input) * power;
             }
-            let peak = &mut peak[g].0[lane];
-            if upper >> j & 1 != 0 {
-                *peak = largest(&p, 1.0, *peak);
-            }
-            if lower >> j & 1 != 0 {
-                *peak = largest(&p.map(|c| -c), 1.0, *peak);
-            }
+            raise_to_size(&mut peak[g].0[lane], &p, 1.0);
         }
         self.peak = loaded(simd, &peak);
         self.set_limits();

@@ -285,9 +285,6 @@ impl Body {
 
     /// The series from a state to the order `orders`, at most [`DEGREE`]; 0 finds accelerations and
     /// forces only.
-    ///
-    /// With the coefficient `e_k` of `e^(−α|w|)` that of order `k + 1` is
-    /// `(k+1) e_{k+1} = −α σ Σ_{j≤k} (j+1) w_{j+1} e_{k−j}`.
     pub(super) fn expand(
         &self,
         x: &State,
@@ -296,135 +293,131 @@ impl Body {
         (unit_s, orders): (f64, usize),
         out: &mut Expansion,
     ) {
-        let (n, modes) = (self.storeys(), in_force.modes);
-        out.unit_s = unit_s;
         if orders > 0 {
             out.clear();
         }
-        (out.s[0], out.w[0]) = (x.s, x.w);
-        for i in 0..n {
-            (out.q[i][0], out.v[i][0]) = (x.q[i], x.v[i]);
+        out.begin(x, loads, unit_s);
+        let normal = [out.normal[0], out.normal[1]];
+        (out.press[0], out.press[1]) = (normal[0] / self.total_kg, normal[1] / self.total_kg);
+        self.load_carriers(in_force.modes, &mut out.carriers);
+        if let Coefficient::Exponential { rate_s_per_m, .. } = in_force.force.coefficient {
+            out.decay = ZERO;
+            out.decay[0] = libm::exp(-rate_s_per_m * x.w.abs());
         }
-        for (e, contents) in self.contents.iter().enumerate() {
-            (out.r[e][0], out.p[e][0]) = (x.r[e], x.p[e]);
-            debug_assert!(contents.floor <= n, "contents stand on a floor");
-        }
-        let mut a = ZERO;
-        (a[0], a[1]) = (loads.acceleration[0], loads.acceleration[1] * unit_s);
-        out.ground = a;
-        (out.normal[0], out.normal[1]) = (loads.normal[0], loads.normal[1] * unit_s);
-        let [n0, n1] = [out.normal[0], out.normal[1]];
-        let pressing = in_force.force.pressing.series([n0, n1]);
-        (out.press[0], out.press[1]) = (n0 / self.total_kg, n1 / self.total_kg);
-        for (floor, carrier) in out.carriers.iter_mut().enumerate() {
-            *carrier = [self.joined_kg(floor, modes), 0.0];
-        }
-        for (contents, mode) in self.contents.iter().zip(&modes[1..]) {
-            let pull = mode.sign() * contents.kinetic_friction * contents.mass_kg;
-            out.carriers[contents.floor][1] += pull;
-        }
-        let block_kg = out.carriers[0][0];
-        let Expansion { s, w, u, press: pressure, shear: base, slider, friction, decay, .. } = out;
-        let Expansion { q, v, floors, r, p, carried, restoring, carriers, .. } = out;
-        // Lengths that the compiler knows to be the same.
-        let (q, v, floors) = (&mut q[..n], &mut v[..n], &mut floors[..n]);
-        let (restoring, carriers) = (&mut restoring[..n], &mut carriers[..=n]);
+        let pressing = in_force.force.pressing.series(normal);
+        let is_linear = matches!(in_force.force.coefficient, Coefficient::Linear { .. });
         let (mut largest, mut sizes) = (0.0_f64, [0.0; DEGREE + 1]);
-        let force = &in_force.force;
-        let sign = modes[0].sign();
-        if let Coefficient::Exponential { rate_s_per_m, .. } = force.coefficient {
-            *decay = ZERO;
-            decay[0] = libm::exp(-rate_s_per_m * x.w.abs());
-        }
         for k in 0..=orders.min(DEGREE) {
-            // The last order of accelerations would need one more of the state.
-            self.restoring(q, v, k, restoring);
-            let shear: f64 = restoring.iter().sum();
-            let press = pressure[k];
-            let on_block = carriers[0][1] * press;
-            for i in 0..n {
-                let [mass_kg, pull] = carriers[i + 1];
-                floors[i][k] = (pull * press - restoring[i]) / mass_kg;
-            }
-            base[k] = shear;
-            let [s_k, w_k] = [s[k], w[k]];
-            let (s_before, first) = if k > 0 { (s[k - 1], 0.0) } else { (0.0, 1.0) };
-            // N (p0 + p1 s)
-            let [p0, p1] = [force.of_normal, force.of_normal_s];
-            let product = n0 * (p0 * first + p1 * s_k)
-                + if k > 0 { n1 * (if k == 1 { p0 } else { 0.0 } + p1 * s_before) } else { 0.0 };
-            let spring = (force.restraint.stiffness_n_per_m * s_k
-                + force.restraint.damper_n_s_per_m * w_k)
-                + (force.force_n * first + product);
-            if modes[0] == Mode::Stick {
-                u[k] = a[k];
-                slider[k] = block_kg * a[k] - shear - on_block;
-                friction[k] = slider[k] + spring;
-            } else {
-                let mu = |k: usize, w_k: f64, decay: &Polynomial| {
-                    let first = if k == 0 { 1.0 } else { 0.0 };
-                    match force.coefficient {
-                        Coefficient::Linear { at_rest, slope_s_per_m } => {
-                            at_rest * first + slope_s_per_m * (sign * w_k)
-                        }
-                        Coefficient::Exponential { fast, drop, .. } => {
-                            fast * first - drop * decay[k]
-                        }
-                    }
-                };
-                let terms = if force.pressing.is_plain() { k.min(1) } else { k };
-                let resisting =
-                    (0..=terms).fold(0.0, |sum, j| sum + pressing[j] * mu(k - j, w[k - j], decay));
-                slider[k] = -sign * resisting - spring;
-                let rubbing = if force.is_friction { product } else { 0.0 };
-                friction[k] = -sign * resisting - rubbing;
-                u[k] = (slider[k] + shear + on_block) / block_kg;
-            }
-            for (e, contents) in self.contents.iter().enumerate() {
-                let under = if contents.floor == 0 { u[k] } else { floors[contents.floor - 1][k] };
-                let mode = modes[1 + e];
-                carried[e][k] = match mode {
-                    Mode::Stick => under,
-                    Mode::Slip(direction) => -direction.sign() * contents.kinetic_friction * press,
-                };
-            }
+            self.forces_of_order(in_force, &pressing, k, out);
             if orders == DEGREE {
-                sizes[k] = self.momentum(w, v, p, k);
+                sizes[k] = self.momentum(&out.w, &out.v, &out.p, k);
                 largest = largest.max(sizes[k]);
                 // What is a hundred-millionth of the motion keeps its digits.
-                let is_linear = matches!(force.coefficient, Coefficient::Linear { .. });
                 if is_linear && k > 4 && sizes[k].max(sizes[k - 1]) <= 1e-6 * NEGLIGIBLE * largest {
                     break;
                 }
             }
+            // The last order of accelerations would need one more of the state.
             if k == DEGREE || k == orders {
                 break;
             }
-            let step = unit_s / (k + 1) as f64;
-            if modes[0] != Mode::Stick {
-                w[k + 1] = step * (u[k] - a[k]);
-                s[k + 1] = step * w[k];
-                if let Coefficient::Exponential { rate_s_per_m, .. } = force.coefficient {
-                    let sum =
-                        (0..=k).fold(0.0, |sum, j| sum + (j + 1) as f64 * w[j + 1] * decay[k - j]);
-                    decay[k + 1] = -rate_s_per_m * sign * sum / (k + 1) as f64;
-                }
-            }
-            for i in 0..n {
-                v[i][k + 1] = step * (floors[i][k] - u[k]);
-                q[i][k + 1] = step * v[i][k];
-            }
-            for (e, contents) in self.contents.iter().enumerate() {
-                if modes[1 + e] != Mode::Stick {
-                    let floor = contents.floor;
-                    let under = if floor == 0 { u[k] } else { floors[floor - 1][k] };
-                    p[e][k + 1] = step * (carried[e][k] - under);
-                    r[e][k + 1] = step * p[e][k];
-                }
-            }
+            self.next_order(in_force, unit_s / (k + 1) as f64, k, out);
         }
         if orders == DEGREE {
             out.part = self.exact_part(in_force, out, (largest, &sizes));
+        }
+    }
+
+    /// Of block and floors: the mass with what is stuck to it, and the pull of what slides on it.
+    fn load_carriers(&self, modes: &[Mode], carriers: &mut [[f64; 2]]) {
+        for (floor, carrier) in carriers.iter_mut().enumerate() {
+            *carrier = [self.joined_kg(floor, modes), 0.0];
+        }
+        for (contents, mode) in self.contents.iter().zip(&modes[1..]) {
+            carriers[contents.floor][1] +=
+                mode.sign() * contents.kinetic_friction * contents.mass_kg;
+        }
+    }
+
+    /// Forces and accelerations of an order, from the state's coefficients up to it.
+    #[inline(always)]
+    fn forces_of_order(
+        &self,
+        in_force: &InForce<'_>,
+        pressing: &Polynomial,
+        k: usize,
+        out: &mut Expansion,
+    ) {
+        let (n, modes, force) = (self.storeys(), in_force.modes, &in_force.force);
+        let Expansion { q, v, floors, carried, restoring, carriers, .. } = out;
+        // Lengths that the compiler knows to be the same.
+        let (q, v, floors) = (&q[..n], &v[..n], &mut floors[..n]);
+        let (restoring, carriers) = (&mut restoring[..n], &carriers[..=n]);
+        self.restoring(q, v, k, restoring);
+        let shear: f64 = restoring.iter().sum();
+        let press = out.press[k];
+        let [block_kg, pull] = carriers[0];
+        let on_block = pull * press;
+        for i in 0..n {
+            let [mass_kg, pull] = carriers[i + 1];
+            floors[i][k] = (pull * press - restoring[i]) / mass_kg;
+        }
+        out.shear[k] = shear;
+        let product = force.of_normal_of_order(k, [out.normal[0], out.normal[1]], &out.s);
+        let spring = (force.restraint.stiffness_n_per_m * out.s[k]
+            + force.restraint.damper_n_s_per_m * out.w[k])
+            + (if k == 0 { force.force_n } else { 0.0 } + product);
+        if modes[0] == Mode::Stick {
+            out.u[k] = out.ground[k];
+            out.slider[k] = block_kg * out.ground[k] - shear - on_block;
+            out.friction[k] = out.slider[k] + spring;
+        } else {
+            let sign = modes[0].sign();
+            let terms = if force.pressing.is_plain() { k.min(1) } else { k };
+            let coefficient = |k: usize| force.coefficient.of_order(k, sign * out.w[k], &out.decay);
+            let resisting = (0..=terms).fold(0.0, |sum, j| sum + pressing[j] * coefficient(k - j));
+            out.slider[k] = -sign * resisting - spring;
+            let rubbing = if force.is_friction { product } else { 0.0 };
+            out.friction[k] = -sign * resisting - rubbing;
+            out.u[k] = (out.slider[k] + shear + on_block) / block_kg;
+        }
+        for ((contents, mode), carried) in self.contents.iter().zip(&modes[1..]).zip(carried) {
+            carried[k] = match mode {
+                Mode::Stick if contents.floor == 0 => out.u[k],
+                Mode::Stick => floors[contents.floor - 1][k],
+                Mode::Slip(direction) => -direction.sign() * contents.kinetic_friction * press,
+            };
+        }
+    }
+
+    /// The state's coefficients of the order after `k`, whose forces are known; `step` is the unit over `k + 1`.
+    ///
+    /// With the coefficient `e_k` of `e^(−α|w|)` that of order `k + 1` is
+    /// `(k+1) e_{k+1} = −α σ Σ_{j≤k} (j+1) w_{j+1} e_{k−j}`.
+    #[inline(always)]
+    fn next_order(&self, in_force: &InForce<'_>, step: f64, k: usize, out: &mut Expansion) {
+        let (n, modes) = (self.storeys(), in_force.modes);
+        let Expansion { s, w, q, v, r, p, u, floors, carried, decay, .. } = out;
+        if modes[0] != Mode::Stick {
+            w[k + 1] = step * (u[k] - out.ground[k]);
+            s[k + 1] = step * w[k];
+            if let Coefficient::Exponential { rate_s_per_m, .. } = in_force.force.coefficient {
+                let sum =
+                    (0..=k).fold(0.0, |sum, j| sum + (j + 1) as f64 * w[j + 1] * decay[k - j]);
+                decay[k + 1] = -rate_s_per_m * modes[0].sign() * sum / (k + 1) as f64;
+            }
+        }
+        let (q, v, floors) = (&mut q[..n], &mut v[..n], &floors[..n]);
+        for i in 0..n {
+            v[i][k + 1] = step * (floors[i][k] - u[k]);
+            q[i][k + 1] = step * v[i][k];
+        }
+        for (e, contents) in self.contents.iter().enumerate() {
+            if modes[1 + e] != Mode::Stick {
+                let under = if contents.floor == 0 { u[k] } else { floors[contents.floor - 1][k] };
+                p[e][k + 1] = step * (carried[e][k] - under);
+                r[e][k + 1] = step * p[e][k];
+            }
         }
     }
 
@@ -478,6 +471,20 @@ impl Body {
 }
 
 impl Expansion {
+    /// Takes up a state and the loads from there on.
+    fn begin(&mut self, x: &State, loads: &Loads, unit_s: f64) {
+        self.unit_s = unit_s;
+        (self.s[0], self.w[0]) = (x.s, x.w);
+        let lists = [(&mut self.q, &x.q), (&mut self.v, &x.v), (&mut self.r, &x.r)];
+        for (series, values) in lists.into_iter().chain([(&mut self.p, &x.p)]) {
+            series.iter_mut().zip(values).for_each(|(series, value)| series[0] = *value);
+        }
+        let Loads { acceleration: [a, a_rate], normal: [n, n_rate] } = *loads;
+        self.ground = ZERO;
+        (self.ground[0], self.ground[1]) = (a, a_rate * unit_s);
+        (self.normal[0], self.normal[1]) = (n, n_rate * unit_s);
+    }
+
     /// Sets to zero what is not written order by order: normal forces, all that stands still, and the
     /// orders that a series leaves off.
     pub(super) fn clear(&mut self) {

@@ -9,7 +9,7 @@ use super::super::phase::LinePhase;
 use super::Direct;
 use super::body::{Body, Expansion, Loads, combined};
 use crate::linear::polynomial::{
-    DEGREE, Polynomial, ZERO, curvature_bound, largest, size_bound, value,
+    DEGREE, Polynomial, ZERO, largest, raise_to_size, size_bound, value,
 };
 use crate::model::{Contents, Model};
 use crate::response::output::{self, Output};
@@ -37,16 +37,6 @@ impl Peaks {
             slope_m_per_s2: model.slope_m_per_s2(),
         }
     }
-}
-
-/// Raises a peak to the largest size of a polynomial on [0, `part`].
-fn raise(peak: &mut f64, p: &Polynomial, part: f64) {
-    let ends = p[0].abs().max(value(p, part).abs());
-    *peak = peak.max(ends);
-    if ends + 0.125 * curvature_bound(p) * (part * part) <= *peak {
-        return;
-    }
-    *peak = largest(&p.map(|c| -c), part, largest(p, part, *peak));
 }
 
 /// A number as it stands in an expansion, or made of several.
@@ -231,7 +221,7 @@ impl<'a> Direct<'a> {
                     let motion = InSeries { body: &self.body, series: &self.series };
                     let output = output.of(&motion, inertia, *slope_m_per_s2);
                     if !(output.size_bound() <= values[j]) {
-                        raise(&mut values[j], &output.series(), part);
+                        raise_to_size(&mut values[j], &output.series(), part);
                     }
                 }
             }
@@ -246,11 +236,11 @@ impl<'a> Direct<'a> {
         let friction = &self.series.friction;
         let peak = &mut self.peaks.values[output::FRICTION];
         let Some((sign, beyond)) = beyond else {
-            raise(peak, friction, part);
+            raise_to_size(peak, friction, part);
             return;
         };
-        raise(peak, &core::array::from_fn(|k| friction[k] - sign * beyond[k]), part);
-        raise(&mut course.slider.stopping.demands.peak_force_n, &beyond, part);
+        raise_to_size(peak, &core::array::from_fn(|k| friction[k] - sign * beyond[k]), part);
+        raise_to_size(&mut course.slider.stopping.demands.peak_force_n, &beyond, part);
     }
 
     fn look_at_stop(&mut self, course: &mut WalkState<'_>, part: f64) {

@@ -16,7 +16,7 @@ use super::series::output_series;
 use super::settle::Scratch;
 use super::{Curvature, How, InForce, Modal};
 use crate::linear::lanes::{Eight, Width, eight, greatest, larger};
-use crate::linear::polynomial::{Polynomial, curvature_bound, largest};
+use crate::linear::polynomial::{Polynomial, curvature_bound, largest, raise_to_size};
 use crate::response::Mode;
 
 /// Candidates that are kept before they are settled, besides one an output.
@@ -87,8 +87,7 @@ impl Peaks {
 
     /// Raises a peak to the largest size of an output over a part of its series.
     pub(super) fn raise(&mut self, j: usize, p: &Polynomial, part: f64) {
-        let peak = &mut self.peak[j / 8].0[j % 8];
-        *peak = largest(&p.map(|c| -c), part, largest(p, part, *peak));
+        raise_to_size(&mut self.peak[j / 8].0[j % 8], p, part);
     }
 
     /// Whether the bounds of a candidate are above the peaks attained since.
