@@ -8,6 +8,7 @@
 use crate::common::random_in_plane::{Random, Restoring, System, libm_sin};
 use slipstick::check::check;
 use slipstick::model::{AlongY, Block, InitialState, Model};
+use slipstick::motion::GroundMotion;
 use slipstick::response::{Demands, EventKind, Response};
 use slipstick::slider::{Friction, RateCurve, RateLaw};
 use slipstick::solver::{Prepared, PreparedMotion, exact};
@@ -148,6 +149,61 @@ fn prop_motion_along_a_line_is_motion_in_one_direction() {
         );
         (system.along_x(), response)
     });
+}
+
+/// A record that is both components, turned until one of them is left, leaves rounding of the other.
+#[test]
+fn prop_rounding_across_a_line_raises_no_alarm() {
+    for seed in 0..10 {
+        for axis in [0, 1] {
+            let line = System::random(seed, true).along_a_line(0.0);
+            let mut along = line.changed(|[x, _]| if axis == 0 { [x, 0.0] } else { [0.0, x] });
+            let table = along.table[axis].clone();
+            let largest = table.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
+            for (k, a) in table.iter().enumerate().filter(|(k, a)| k % 3 == 1 && a.abs() < largest)
+            {
+                along.table[1 - axis][k] = 1e-16 * a;
+            }
+            let (model, motion) = (along.model(), along.motion());
+            let response = exact(&model, &motion).expect("a response");
+            let c = check(&model, &motion, &response);
+            assert!(c.holds(), "seed {seed} along {axis}: {c:?}");
+        }
+    }
+}
+
+/// What rests is told by the fastest so far: here a slip at 18.5 s passes rest by 1e-15 m/s, and its peak is later.
+#[test]
+fn a_slip_that_nearly_rests_before_its_peak_raises_no_alarm() {
+    let record = include_str!("../../../../examples/records/taft-021.txt");
+    let g: Vec<f64> = record.split_whitespace().map(|x| x.parse().expect("a number")).collect();
+    let most = g.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
+    let x: Vec<f64> = g.iter().map(|a| a * 9.80665 * (1.41125 / most)).collect();
+    let cosine = libm_sin(core::f64::consts::PI);
+    let turned = |of: &dyn Fn(f64) -> f64| {
+        let mut list: Vec<f64> = x.iter().map(|a| of(*a)).collect();
+        list.resize(x.len() + 200, 0.0);
+        list
+    };
+    let [x, y] = [turned(&|a| 0.5 * a * cosine - a), turned(&|a| a + 0.5 * a * cosine)];
+    let curve =
+        RateCurve::Exponential { slow: 0.06606099734, fast: 0.09290273825, rate_s_per_m: 5.0 };
+    let law = RateLaw::new(curve, [1.0; 2]).expect("a law");
+    let model = Model::builder()
+        .block("5.22156 t")
+        .friction_by_speed(0.1393534094, law)
+        .radius("1.68408 m")
+        .tilt("0.0371595 deg")
+        .oscillator("1.65408 t", "1.428822493 Hz", 0.02)
+        .build()
+        .expect("a model");
+    let motion = GroundMotion::evenly_spaced(0.01, x, None)
+        .and_then(|motion| motion.with_y(y))
+        .expect("a motion");
+    let response = exact(&model, &motion).expect("a response");
+    let c = check(&model, &motion, &response);
+    let closest = c.closest_call.as_ref().expect("a decision");
+    assert!(c.holds() && closest.margin < 1e-14, "{c:?}");
 }
 
 /// Whether the figures by axis are parts of the resultant, and all is said as in two directions.

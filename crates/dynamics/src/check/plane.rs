@@ -60,7 +60,9 @@ pub(super) fn check(
     let (law, outputs, pulse) = (&law, &outputs, Pulse::new(go_on));
     let given = JudgeInput { model, motion, response, history: h, law, outputs, pulse };
     let mut judge = PlaneJudge::of_plane(given, (plane, along_y, table_y), &frame);
-    judge.axes.line = line_of(model, (motion.horizontal_m_per_s2(), table_y));
+    if let Some((line, still)) = line_of(model, (motion.horizontal_m_per_s2(), table_y)) {
+        (judge.axes.line, judge.axes.still) = (Some(line), still);
+    }
     judge.run(bound)?.map_or_else(unjudged, Ok)
 }
 
@@ -83,8 +85,8 @@ fn is_ring(stop: &Stop) -> bool {
 }
 
 /// The direction of the line through rest that all of a motion and of the start is on, where a model with this frame
-/// stays on it.
-fn line_of(model: &Model, table: (&[f64], &[f64])) -> Option<Pair> {
+/// stays on it, and along which axes nothing is, not even rounding.
+fn line_of(model: &Model, table: (&[f64], &[f64])) -> Option<(Pair, [bool; 2])> {
     let (x, y) = (model.initial(), model.along_y());
     let (frame, [q, v]) = (
         model.frame(),
@@ -122,7 +124,9 @@ fn line_of(model: &Model, table: (&[f64], &[f64])) -> Option<Pair> {
     let is_axis = line.contains(&0.0);
     let is_alike = model.storeys() == 0
         || (frame.stiffnesses_n_per_m == y.stiffnesses_n_per_m && frame.damping == y.damping);
-    (model.structure().is_none() && (is_axis || is_alike)).then_some(line)
+    let is_zero = |axis: &[f64]| axis.iter().all(|value| *value == 0.0);
+    let still = [kinds.iter().all(|(x, _)| is_zero(x)), kinds.iter().all(|(_, y)| is_zero(y))];
+    (model.structure().is_none() && (is_axis || is_alike)).then_some((line, still))
 }
 
 /// Whether friction by speed is the same both ways.

@@ -27,12 +27,13 @@ impl<'a> PlaneJudge<'a> {
         holds: impl FnOnce(&Self) -> bool,
     ) {
         let minimum = self.dips[0].feed(time_s, speed);
-        let Minima { turn: (turn_s, holds_there), least } = &mut self.axes.minima;
-        if let Some(minimum) = minimum
-            && *holds_there
-            && least.is_none_or(|(least, _)| minimum < least)
-        {
-            *least = Some((minimum, *turn_s));
+        let peak = self.dips[0].peak();
+        let Minima { turn: (turn_s, holds_there), least, was_at_rest } = &mut self.axes.minima;
+        if let Some(minimum) = minimum.filter(|_| *holds_there) {
+            *was_at_rest |= minimum <= 0.5 * REST * peak;
+            if least.is_none_or(|(least, _)| minimum < least) {
+                *least = Some((minimum, *turn_s));
+            }
         }
         if self.dips[0].turn_s() == time_s {
             self.axes.minima.turn = (time_s, holds(self));

@@ -37,7 +37,7 @@ impl<'a> PlaneJudge<'a> {
         let sides = [[most_x, -least_x], [most_y, -least_y]];
         for (axis, [most_m, least_m]) in sides.into_iter().enumerate() {
             // Across the line of a motion along an axis nothing moves, and nothing is rounded.
-            let is_still = self.axes.line.is_some_and(|line| line[axis] == 0.0);
+            let is_still = self.axes.still[axis];
             let sliding_m = [most_m.max(-least_m), most_m, least_m, last[axis]];
             let largest = &peaks.largest[1 + axis];
             let own = Recomputed {

@@ -45,6 +45,8 @@ pub(super) struct Minima {
     pub(super) turn: (f64, bool),
     /// The least of them, and when.
     pub(super) least: Option<(f64, f64)>,
+    /// Whether one was rest, by the peak of the speed up to there.
+    pub(super) was_at_rest: bool,
 }
 
 /// What a judgement in a plane needs besides.
@@ -66,6 +68,8 @@ pub(super) struct Plane<'a> {
     pub(super) shallow_speed: f64,
     /// The direction of the one line on which all moves, if it does: friction is along it, and no rounding turns it.
     pub(super) line: Option<Pair>,
+    /// Along which axes nothing moves then, not even by rounding.
+    pub(super) still: [bool; 2],
     /// Near rest, whether the slip was straight when it came there.
     pub(super) near_rest: Option<bool>,
     /// The last direction of sliding, and the speed that was left where the last interval ended.
@@ -103,6 +107,7 @@ impl<'a> PlaneJudge<'a> {
             least_speed: None,
             shallow_speed: f64::INFINITY,
             line: None,
+            still: [false; 2],
             near_rest: None,
             heading: None,
             arrived: 0.0,
@@ -426,7 +431,7 @@ impl Directions for PlaneJudge<'_> {
             *least = Some(least.map_or(minimum, |least| least.min(minimum)));
         }
         let (least, time_s) = self.axes.minima.least?;
-        if least <= 0.5 * REST * peak {
+        if self.axes.minima.was_at_rest {
             // It came to rest, was held, and slides on.
             let off = (self.frame().fixed - self.law.kinetic_at(0.0)[0]) * self.largest.0;
             self.figures.excess = larger(self.figures.excess, off);
