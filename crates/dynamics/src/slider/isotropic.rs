@@ -75,7 +75,7 @@ impl IsotropicFriction {
         (line, [lines[passed].from_m_per_s, end])
     }
 
-    /// Its largest and least value up to a speed.
+    /// Its least and largest value up to a speed.
     pub(crate) fn range_up_to(&self, speed: f64) -> [f64; 2] {
         let (first, last) = (self.at(0.0), self.at(speed));
         let (mut least, mut most) = (first.min(last), first.max(last));
@@ -90,11 +90,6 @@ impl IsotropicFriction {
     /// Whether there is none at any speed.
     pub(crate) fn is_none(&self) -> bool {
         self.at(0.0) == 0.0 && self.is_constant()
-    }
-
-    /// Whether friction follows the normal force itself.
-    pub(crate) fn is_plain(&self) -> bool {
-        self.pressing.is_plain()
     }
 
     /// The normal force that friction follows, under a normal force.

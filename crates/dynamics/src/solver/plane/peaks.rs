@@ -242,6 +242,13 @@ impl Composed {
         less(own, self.less[axis])
     }
 
+    /// A bound on its length, from one on that of friction.
+    fn longest(&self, chords: &[[Chord; 2]; 3], most_friction: f64) -> f64 {
+        let (ends, bends) = Self { of_friction: 0.0, ..*self }.between(chords);
+        let steady = norm(ends[0]).max(norm(ends[1])) + norm(bends);
+        steady + self.of_friction.abs() * most_friction
+    }
+
     /// Its values at both ends, and how far its components depart from their chords at most.
     fn between(&self, chords: &[[Chord; 2]; 3]) -> ([[f64; 2]; 2], [f64; 2]) {
         let factors = [self.of_pull, self.of_shear, -self.of_friction];
@@ -559,11 +566,9 @@ impl Peaks {
         let none = [0.0; 2];
         let friction = Composed { of_pull: 0.0, of_shear: 0.0, of_friction: kg, less: none };
         let slider = Composed { of_pull: kg, of_shear: -1.0, of_friction: kg, less: none };
-        // The size of constant friction is linear in the time: its ends are its peaks.
-        let law = &system.kinetic_per_kg;
-        let by_axis = law.is_constant() && law.is_plain() && series.kind == Kind::Slip;
-        self.look_at_composed(Output::FrictionForce, &friction, part, by_axis);
-        self.look_at_composed(Output::SliderForce, &slider, part, false);
+        let most = most_friction(part);
+        self.look_at_composed(Output::FrictionForce, &friction, part, most);
+        self.look_at_composed(Output::SliderForce, &slider, part, most);
         let mut own = None;
         if let Some(mass) = &system.mass {
             // b = C (P − φ)
@@ -577,7 +582,7 @@ impl Peaks {
             self.look_at_vector(Output::Block, &Vector { steady, ..block }, part);
             own = Some(block);
         } else {
-            self.look_at_composed(Output::Block, &block, part, false);
+            self.look_at_composed(Output::Block, &block, part, most);
         }
         let mut moments = Vector { steady: [ZERO; 2], of_friction: [[0.0; 2]; 2] };
         for axis in 0..2 {
@@ -612,17 +617,19 @@ impl Peaks {
         own
     }
 
-    /// `by_axis` where the length has its peaks at the ends.
+    /// Under friction that is never more than a bound: a vector that is friction alone is never longer either.
     fn look_at_composed(
         &mut self,
         output: Output,
         of: &Composed,
         part: &SeriesPart<'_>,
-        by_axis: bool,
+        most_friction: f64,
     ) {
         let peak = &mut self.all[output.place(self.points)];
         let (ends, bends) = of.between(part.chords);
         peak.note_ends(ends, part.to);
+        let longest = of.longest(part.chords, most_friction);
+        let by_axis = longest <= peak.norm * (1.0 + ROUNDING);
         let is_above =
             if by_axis { peak.is_above_by_axis(ends, bends) } else { peak.is_above(ends, bends) };
         if !is_above {
@@ -774,6 +781,25 @@ fn friction_at(system: &System, series: &PlaneSeries, x: f64) -> [f64; 2] {
         return if length > 0.0 { along.map(|u| size / length * u) } else { [0.0; 2] };
     }
     w.map(|w| size / speed * w)
+}
+
+/// A bound on what friction takes in a part of a slip. Where it takes that everywhere, as under a law that does not follow
+/// the speed, a search for more would look everywhere.
+fn most_friction(&SeriesPart { system, series, to, .. }: &SeriesPart<'_>) -> f64 {
+    if series.kind != Kind::Slip {
+        return f64::INFINITY;
+    }
+    let law = &system.kinetic_per_kg;
+    let [normal_n, rate] = series.loads.normal;
+    let most_n = normal_n.max(normal_n + rate * (series.unit * to)).max(0.0);
+    let fastest = if law.is_constant() {
+        0.0
+    } else {
+        let ends = [0.0, to].map(|x| norm(series.velocity_at(x)));
+        ends[0].max(ends[1]) + norm(series.w.each_ref().map(|w| bend(w, to)))
+    };
+    let [_, most] = law.range_up_to(fastest);
+    most * law.pressing_n(most_n)
 }
 
 /// How far what the polynomial of friction leaves out in a slip departs from its chord at most: its coefficients are below
