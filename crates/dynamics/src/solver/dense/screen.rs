@@ -4,7 +4,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, f64x8};
 
 use super::ahead::Ahead;
-use super::lanes::{Abreast, BATCH, Five, Four, eight, greatest, least, times4};
+use super::lanes::{Abreast, BATCH, Five, eight, greatest, least, times4};
 use super::outputs::{BEHIND, behind};
 use super::peaks::Samples;
 use crate::linear::{QUIET, Window};
@@ -17,20 +17,6 @@ use crate::solver::windows::Extent;
 /// A chord over a sample is off by this part of what one over a batch is.
 const PER_SAMPLE: f64 = 1.0 / (BATCH * BATCH) as f64;
 
-/// Where the gates have passed by far, one slack serves many samples: it is made from here on, and serves up to there.
-struct Far<S: Simd> {
-    slack: Abreast<S>,
-    from: usize,
-    to: usize,
-}
-
-/// A state of sliding, and the gates in it.
-#[derive(Clone, Copy)]
-struct Slide<S: Simd> {
-    x: f64x4<S>,
-    gates: Abreast<S>,
-}
-
 impl<S: Simd> Ahead<'_, '_, S> {
     /// Takes samples of sliding; the first that the bounds leave open.
     #[inline(always)]
@@ -40,114 +26,98 @@ impl<S: Simd> Ahead<'_, '_, S> {
         end: usize,
         direction: Direction,
     ) -> usize {
-        let (simd, of) = (self.simd, &self.of.tables.slip.gates.slack);
-        let force_n = self.force_n(Mode::Slip(direction));
+        let (simd, tables) = (self.simd, self.of.tables);
+        let of = &tables.slip.gates.slack;
+        let mode = Mode::Slip(direction);
+        let (sign, force_n) = (direction.sign(), self.force_n(mode));
         let by_force = [0, 1].map(|i| of.of_force[i].times(simd, force_n.abs()));
-        let x = self.state();
-        let mut slide = Slide { x, gates: self.gates::<true>(x, force_n) };
-        let mut far = Far { slack: Five::ZERO.load(simd), from: end, to: 0 };
+        let mut x = self.state();
+        let mut gates = self.gates::<true>(x, force_n);
+        // Where the gates have passed by far, one slack serves many samples: it is made from here on, and
+        // serves up to there.
+        let (mut far, mut far_from, mut far_to) = (Five::ZERO.load(simd), end, 0);
         while sample + BATCH <= end {
-            let (steps, next) =
-                self.slip_batch((sample, end), (direction, force_n, by_force), &slide, &mut far);
-            if steps == 0 {
-                break;
+            let a = self.window(sample);
+            let start = x.to_array();
+            let (mut next, mut next_gates) = (x, gates);
+            if sample >= far_from {
+                let extent = self.of.windows.many(sample);
+                far = self.slack_in_slip(start, extent, (&of.of_acceleration[1], by_force[1]));
+                let goes_far = self.slides_within(gates, far, sign);
+                far_from = sample + QUIET;
+                far_to = if goes_far { far_from } else { 0 };
             }
-            self.record::<true>(sample, steps, slide.x, force_n);
-            slide = next;
+            if sample < far_to {
+                next = self.after::<true>(BATCH, x, a, force_n);
+                next_gates = self.gates::<true>(next, force_n);
+                if self.slides_within(next_gates, far, sign) {
+                    self.record::<true>(sample, BATCH, x, force_n);
+                    (x, gates) = (next, next_gates);
+                    sample += BATCH;
+                    continue;
+                }
+                far_to = 0;
+            }
+            let extent = self.of.windows.batch(sample);
+            let slack = self.slack_in_slip(start, extent, (&of.of_acceleration[0], by_force[0]));
+            // (i) |ṡ| ≥ min of the ends − H²/8 max|g″|: it slides through.
+            let hidden = slack.four.as_array()[0];
+            let u = gates.four.as_array()[3];
+            let is_likely =
+                sign * (start[1] + tables.batch_s * (u - 0.5 * (a[0] + a[BATCH]))) > 0.0;
+            let (mut slides, mut open_gates, mut open) = (false, 0, 0);
+            if is_likely {
+                next = self.after::<true>(BATCH, x, a, force_n);
+                next_gates = self.gates::<true>(next, force_n);
+                slides = sign * start[1] > hidden && sign * next.as_array()[1] > hidden;
+                (open_gates, open) =
+                    self.open_in_slip([gates, next_gates], [x, next], slack, force_n);
+                if slides && open_gates | open == 0 {
+                    self.record::<true>(sample, BATCH, x, force_n);
+                    (x, gates) = (next, next_gates);
+                    sample += BATCH;
+                    if far_from == end && !self.several {
+                        far_from = sample;
+                    }
+                    continue;
+                }
+            }
+            let mut steps = BATCH;
+            let mut speed = eight(simd, 0.0);
+            if !slides {
+                speed = self.row::<true>(&tables.slip.rows[1], start, a, force_n);
+                let hidden = PER_SAMPLE * hidden;
+                let clear = (eight(simd, sign) * speed).simd_gt(eight(simd, hidden)).to_bitmask();
+                steps = clear_steps(clear, sign * start[1] > hidden);
+                if steps == 0 {
+                    break;
+                }
+                next = self.after::<true>(steps, x, a, force_n);
+                next_gates = self.gates::<true>(next, force_n);
+                (open_gates, open) =
+                    self.open_in_slip([gates, next_gates], [x, next], slack, force_n);
+            }
+            if open_gates | open != 0 {
+                if slides && open_gates & 1 != 0 {
+                    speed = self.row::<true>(&tables.slip.rows[1], start, a, force_n);
+                }
+                let slack = slack.times(simd, PER_SAMPLE);
+                let samples = Samples { sample, steps, mode, x: start };
+                open |= self.open_at_samples(&samples, a, force_n, open_gates, speed, slack);
+                open |= behind(self.open(gates, slack));
+                if open != 0 {
+                    self.look_over::<true>(&samples, open, slack);
+                }
+            }
+            self.record::<true>(sample, steps, x, force_n);
+            (x, gates) = (next, next_gates);
             sample += steps;
             if steps < BATCH {
                 break;
             }
         }
-        *self.shared.x = slide.x.to_array();
+        *self.shared.x = x.to_array();
         sample
-    }
-
-    /// Samples of a batch of sliding up to the first that the bounds leave open, and what is there.
-    #[inline(always)]
-    fn slip_batch(
-        &mut self,
-        (sample, end): (usize, usize),
-        (direction, force_n, by_force): (Direction, f64, [Abreast<S>; 2]),
-        from: &Slide<S>,
-        far: &mut Far<S>,
-    ) -> (usize, Slide<S>) {
-        let (simd, tables, sign) = (self.simd, self.of.tables, direction.sign());
-        let of = &tables.slip.gates.slack;
-        let (a, start) = (self.window(sample), from.x.to_array());
-        let mut next = *from;
-        if sample >= far.from {
-            let extent = self.of.windows.many(sample);
-            far.slack = self.slack_in_slip(start, extent, (&of.of_acceleration[1], by_force[1]));
-            far.from = sample + QUIET;
-            far.to = if self.slides_within(from.gates, far.slack, sign) { far.from } else { 0 };
-        }
-        if sample < far.to {
-            next = self.slid(BATCH, from, (a, force_n));
-            if self.slides_within(next.gates, far.slack, sign) {
-                return (BATCH, next);
-            }
-            far.to = 0;
-        }
-        let extent = self.of.windows.batch(sample);
-        let slack = self.slack_in_slip(start, extent, (&of.of_acceleration[0], by_force[0]));
-        // (i) |ṡ| ≥ min of the ends − H²/8 max|g″|: it slides through.
-        let hidden = slack.four.as_array()[0];
-        let u = from.gates.four.as_array()[3];
-        let is_likely = sign * (start[1] + tables.batch_s * (u - 0.5 * (a[0] + a[BATCH]))) > 0.0;
-        let (mut slides, mut open_gates, mut open) = (false, 0, 0);
-        if is_likely {
-            next = self.slid(BATCH, from, (a, force_n));
-            slides = sign * start[1] > hidden && sign * next.x.as_array()[1] > hidden;
-            (open_gates, open) = self.open_in_slip(from, &next, slack, force_n);
-            if slides && open_gates | open == 0 {
-                if far.from == end && !self.several {
-                    far.from = sample + BATCH;
-                }
-                return (BATCH, next);
-            }
-        }
-        let mut steps = BATCH;
-        if !slides {
-            steps = self.sliding_steps(start, (a, force_n), sign, hidden);
-            if steps == 0 {
-                return (0, next);
-            }
-            next = self.slid(steps, from, (a, force_n));
-            (open_gates, open) = self.open_in_slip(from, &next, slack, force_n);
-        }
-        if open_gates | open != 0 {
-            let slack = slack.times(simd, PER_SAMPLE);
-            let samples = Samples { sample, steps, mode: Mode::Slip(direction), x: start };
-            open |= self.open_at_samples(&samples, (a, force_n), open_gates, slack);
-            open |= behind(self.open(from.gates, slack));
-            if open != 0 {
-                self.look_over::<true>(&samples, open, slack);
-            }
-        }
-        (steps, next)
-    }
-
-    /// What a slide is after so many samples.
-    #[inline(always)]
-    fn slid(&self, steps: usize, from: &Slide<S>, (a, force_n): (&Window, f64)) -> Slide<S> {
-        let x = self.after::<true>(steps, from.x, a, force_n);
-        Slide { x, gates: self.gates::<true>(x, force_n) }
-    }
-
-    /// Samples of a batch over which the block slides on, `hidden` being what a chord over the batch hides.
-    #[inline(always)]
-    fn sliding_steps(
-        &self,
-        x: [f64; 4],
-        (a, force_n): (&Window, f64),
-        sign: f64,
-        hidden: f64,
-    ) -> usize {
-        let simd = self.simd;
-        let speed = self.row::<true>(&self.of.tables.slip.rows[1], x, a, force_n);
-        let clear = (eight(simd, sign) * speed).simd_gt(eight(simd, PER_SAMPLE * hidden));
-        clear_steps(clear.to_bitmask(), sign * x[1] > hidden)
     }
 
     /// How far the gates depart from a chord over a batch at most, from a state on.
@@ -179,17 +149,17 @@ impl<S: Simd> Ahead<'_, '_, S> {
     #[inline(always)]
     fn open_in_slip(
         &self,
-        first: &Slide<S>,
-        last: &Slide<S>,
+        [first, last]: [Abreast<S>; 2],
+        [x, next]: [f64x4<S>; 2],
         slack: Abreast<S>,
         force_n: f64,
     ) -> (u64, u64) {
-        let open_gates = self.open(first.gates, slack) | self.open(last.gates, slack);
+        let open_gates = self.open(first, slack) | self.open(last, slack);
         if !self.several {
             return (open_gates, 0);
         }
-        let gates = first.gates.larger_size(last.gates).plus(slack).to_array();
-        let s = greatest(first.x.as_array()[0].abs(), last.x.as_array()[0].abs());
+        let gates = first.larger_size(last).plus(slack).to_array();
+        let s = greatest(x.as_array()[0].abs(), next.as_array()[0].abs());
         let (storey, [of_f, of_u]) = (&self.of.tables.storey, self.of.tables.shape.arms);
         let peak = self.peak[0].as_array();
         let restraint = storey.stiffness_n_per_m * s + storey.damper_n_s_per_m * gates[0];
@@ -200,13 +170,16 @@ impl<S: Simd> Ahead<'_, '_, S> {
         (open_gates, open)
     }
 
-    /// Outputs behind those of the open gates that pass their limits at a sample.
+    /// Outputs behind those of the open gates that pass their limits at a sample, of which the speed is
+    /// known.
     #[inline(always)]
     fn open_at_samples(
         &self,
         samples: &Samples,
-        (a, force_n): (&Window, f64),
+        a: &Window,
+        force_n: f64,
         open_gates: u64,
+        speed: f64x8<S>,
         slack: Abreast<S>,
     ) -> u64 {
         let (simd, storey, start) = (self.simd, &self.of.tables.storey, samples.x);
@@ -214,11 +187,8 @@ impl<S: Simd> Ahead<'_, '_, S> {
         let (low, high) = (self.low.plus(slack).to_array(), self.high.less(slack).to_array());
         let limits: [[f64; 2]; 5] = core::array::from_fn(|i| [low[i], high[i]]);
         let mut open = 0;
-        if open_gates & 0b0_0001 != 0 {
-            let speed = self.row::<true>(&rows[1], start, a, force_n);
-            if passes(simd, speed, limits[0], steps) {
-                open |= BEHIND[0];
-            }
+        if open_gates & 0b0_0001 != 0 && passes(simd, speed, limits[0], steps) {
+            open |= BEHIND[0];
         }
         if open_gates & 0b0_0010 != 0 {
             let eta = self.row::<true>(&rows[2], start, a, force_n);
@@ -305,11 +275,50 @@ impl<S: Simd> Ahead<'_, '_, S> {
                 break;
             }
             if !quiet_batch {
-                let samples = Samples { sample, steps, mode: Mode::Stick, x: start };
-                let of_demand = (demand, first, spring_n);
-                let open = self.open_in_stick(&samples, a, of_demand, !most.within(limit), slack)
-                    | u64::from(!self.moment_stays(most)) << output::OVERTURNING;
+                let open_gates = !most.within(limit);
+                let u = f64x8::from_slice(simd, &a[1..]);
+                let first_gates = self.gates::<false>(x, a[0]);
+                let mut open = behind(self.open(first_gates, slack));
+                open |= u64::from(!self.moment_stays(most)) << output::OVERTURNING;
+                let low = self.low.plus(slack).to_array();
+                let high = self.high.less(slack).to_array();
+                if open_gates & 0b0_0001 != 0 {
+                    let most = self.most_friction - hidden;
+                    let friction = demand + eight(simd, spring_n);
+                    if first.abs() > most || passes(simd, friction, [-most, most], steps) {
+                        open |= 1 << output::FRICTION;
+                    }
+                    let most = self.most_slider - hidden;
+                    if (first - spring_n).abs() > most || passes(simd, demand, [-most, most], steps)
+                    {
+                        open |= 1 << output::SLIDER;
+                    }
+                }
+                if open_gates & 0b1_0000 != 0 {
+                    let rate = self.row::<false>(&tables.stick.rows[4], start, a, 0.0);
+                    if passes(simd, rate, [low[4], high[4]], steps) {
+                        open |= BEHIND[4];
+                    }
+                }
+                if open_gates & 0b0_0010 != 0 {
+                    let eta = self.row::<false>(&tables.stick.rows[2], start, a, 0.0);
+                    if passes(simd, eta, [low[1], high[1]], steps) {
+                        open |= BEHIND[1];
+                    }
+                }
+                if open_gates & 0b0_0100 != 0 {
+                    // L·f = M1 a − T, without the spring's part.
+                    let shear = eight(simd, storey.block_mass_kg) * u - demand;
+                    let f = shear * eight(simd, 1.0 / storey.participation);
+                    if passes(simd, f, [low[2], high[2]], steps) {
+                        open |= BEHIND[2];
+                    }
+                }
+                if open_gates & 0b0_1000 != 0 && passes(simd, u, [low[3], high[3]], steps) {
+                    open |= BEHIND[3];
+                }
                 if open != 0 {
+                    let samples = Samples { sample, steps, mode: Mode::Stick, x: start };
                     self.look_over::<false>(&samples, open, slack);
                     limit = self.limits_in_stick(spring_n);
                 }
@@ -323,61 +332,6 @@ impl<S: Simd> Ahead<'_, '_, S> {
         }
         *self.shared.x = x.to_array();
         sample
-    }
-
-    /// Outputs behind those of the open gates that pass their limits at a sample, from the demand without the spring's
-    /// force: at the samples, before them, and that force.
-    #[inline(always)]
-    fn open_in_stick(
-        &self,
-        samples: &Samples,
-        a: &Window,
-        (demand, first, spring_n): (f64x8<S>, f64, f64),
-        open_gates: u64,
-        slack: Abreast<S>,
-    ) -> u64 {
-        let (simd, storey) = (self.simd, &self.of.tables.storey);
-        let (rows, steps, start) = (&self.of.tables.stick.rows, samples.steps, samples.x);
-        let (low, high) = (self.low.plus(slack).to_array(), self.high.less(slack).to_array());
-        let x = Four(start).load(simd);
-        let mut open = behind(self.open(self.gates::<false>(x, a[0]), slack));
-        if open_gates & 0b0_0001 != 0 {
-            let hidden = storey.participation * slack.four.as_array()[2];
-            let most = self.most_friction - hidden;
-            let friction = demand + eight(simd, spring_n);
-            if first.abs() > most || passes(simd, friction, [-most, most], steps) {
-                open |= 1 << output::FRICTION;
-            }
-            let most = self.most_slider - hidden;
-            if (first - spring_n).abs() > most || passes(simd, demand, [-most, most], steps) {
-                open |= 1 << output::SLIDER;
-            }
-        }
-        if open_gates & 0b1_0000 != 0 {
-            let rate = self.row::<false>(&rows[4], start, a, 0.0);
-            if passes(simd, rate, [low[4], high[4]], steps) {
-                open |= BEHIND[4];
-            }
-        }
-        if open_gates & 0b0_0010 != 0 {
-            let eta = self.row::<false>(&rows[2], start, a, 0.0);
-            if passes(simd, eta, [low[1], high[1]], steps) {
-                open |= BEHIND[1];
-            }
-        }
-        let u = f64x8::from_slice(simd, &a[1..]);
-        if open_gates & 0b0_0100 != 0 {
-            // L·f = M1 a − T, without the spring's part.
-            let shear = eight(simd, storey.block_mass_kg) * u - demand;
-            let f = shear * eight(simd, 1.0 / storey.participation);
-            if passes(simd, f, [low[2], high[2]], steps) {
-                open |= BEHIND[2];
-            }
-        }
-        if open_gates & 0b0_1000 != 0 && passes(simd, u, [low[3], high[3]], steps) {
-            open |= BEHIND[3];
-        }
-        open
     }
 
     /// Sizes below which no output of stick passes its peak: of the demand without the spring's part, `η`,
