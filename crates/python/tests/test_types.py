@@ -10,6 +10,8 @@ import pytest
 import slipstick as ss
 
 HERE = Path(__file__).resolve().parent
+#: What users write: typical use of every part, and the scripts of a day
+USE = [HERE / "typical_use.py", *sorted((HERE / "day").glob("*.py"))]
 FAULTS = """\
 import slipstick as ss
 ss.typo
@@ -24,12 +26,12 @@ def test_mypy_is_content_with_typical_use(tmp_path: Path) -> None:
     faults = tmp_path / "faults.py"
     faults.write_text(FAULTS)
 
-    def mypy(path: Path) -> list[str]:
-        words = [sys.executable, "-m", "mypy", "--strict", "--no-error-summary", "--cache-dir", str(tmp_path), str(path)]
-        return subprocess.run(words, capture_output=True, text=True, cwd=tmp_path).stdout.splitlines()
-
-    assert mypy(HERE / "typical_use.py") == []
-    assert [line.split(":")[1] for line in mypy(faults) if ": error:" in line] == ["2", "3", "4", "5"]
+    words = [sys.executable, "-m", "mypy", "--strict", "--no-error-summary", "--cache-dir", str(tmp_path)]
+    files = [*map(str, USE), str(faults)]
+    told = subprocess.run([*words, *files], capture_output=True, text=True, cwd=tmp_path).stdout.splitlines()
+    errors = [line for line in told if ": error:" in line]
+    assert [line for line in errors if not line.startswith("faults.py:")] == []
+    assert [line.split(":")[1] for line in errors] == ["2", "3", "4", "5"]
 
 
 def test_pyright_is_content_with_package_and_typical_use(tmp_path: Path) -> None:
@@ -38,7 +40,7 @@ def test_pyright_is_content_with_package_and_typical_use(tmp_path: Path) -> None
     settings = tmp_path / "pyrightconfig.json"
     faults = tmp_path / "faults.py"
     faults.write_text(FAULTS)
-    asked = {"include": [str(HERE / "typical_use.py"), str(package / "_core.pyi"), str(faults)], "typeCheckingMode": "strict"}
+    asked = {"include": [*map(str, USE), str(package / "_core.pyi"), str(faults)], "typeCheckingMode": "strict"}
     settings.write_text(json.dumps({**asked, "reportMissingTypeStubs": False, "reportUnknownMemberType": False}))
     words = [sys.executable, "-m", "pyright", "--outputjson", "--pythonpath", sys.executable, "--project", str(settings)]
     ended = subprocess.run(words, capture_output=True, text=True, cwd=tmp_path)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
-import pandas as pd
+import polars as pl
 
 import slipstick as ss
 
@@ -40,7 +40,8 @@ spectra = response.plot.floor_spectra()
 folder = response.save("response")
 assert ss.Response.read(folder) == response
 report: Path = response.report("report.html", units="kN-mm")
-table: pd.DataFrame = response.history.to_pandas()
+table = pl.DataFrame(response.history)
+assert table.height == response.summary["samples"]
 
 # Two directions: x, y, their resultant and the way of the block in its gap.
 pair = ss.read_record(x, y=y, units="g", dt=0.01)["2 s":"12 s"].rotated(angle_deg=30)
@@ -68,5 +69,5 @@ records = ss.Suite({"021": taft, "111": ss.read_record(y, units="g", dt=0.01)["2
 light = ss.suite(tank, records, check=False, progress=False)
 done: list[int] = []
 found = ss.suite(tank, records, progress=lambda runs, planned: done.append(runs))
-peaks: pd.Series = found.to_pandas()["peak_sliding_displacement_m"]
-assert found.table["peak_sliding_displacement_m"].tolist() == light.table["peak_sliding_displacement_m"].tolist() and done
+peaks = pl.DataFrame(found.table)["peak_sliding_displacement_m"]
+assert peaks.to_list() == light.table["peak_sliding_displacement_m"].tolist() and done

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
+import polars as pl
 
 import slipstick as ss
 
@@ -31,7 +31,7 @@ truth = ss.run(mock_up, shaken)
 noise = np.random.default_rng(1)
 columns = {name: truth.history[name] for name in ("time_s", "table_acceleration_m_per_s2", "sliding_displacement_m")}
 columns["sliding_displacement_m"] = columns["sliding_displacement_m"] + noise.normal(0.0, 1e-5, len(columns["time_s"]))
-comparison = ss.compare(pd.DataFrame(columns), mock_up, within={"peak_ratio.sliding_displacement": (0.9, 1.1)})
+comparison = ss.compare(pl.DataFrame(columns), mock_up, within={"peak_ratio.sliding_displacement": (0.9, 1.1)})
 overlay = comparison.plot("sliding_displacement")
 assert comparison.holds and overlay.get_ylabel() == "Sliding displacement (mm)"
 
