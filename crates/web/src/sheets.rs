@@ -147,7 +147,7 @@ impl<'a> Settings<'a> {
 
     /// What is asked of an analysis, of all its fields.
     fn asked(&self, kind: Kind) -> Result<Request, Failure> {
-        let field = |name: &str| kind.field(name).is_some();
+        let field = |name: &str| kind.fields().iter().any(|field| field.name == name);
         let given = self.pairs().filter(|(name, _)| field(name));
         let asked = Request::new(kind, given.map(|(name, text)| (name, text.to_owned())));
         asked.map_err(|error| Failure::choice(&error))
@@ -191,8 +191,10 @@ impl<'a> Settings<'a> {
                 words.push(table_of(kinds[i - 1]));
             }
             for (name, text) in self.pairs() {
-                let Some(field) = kind.field(name) else { continue };
-                words.push(format!("--{}", field.name));
+                let Some(field) = kind.fields().iter().find(|field| field.name == name) else {
+                    continue;
+                };
+                words.push(format!("--{name}"));
                 words.extend((field.takes != Takes::Flag).then(|| text.to_owned()));
             }
             let last = i + 1 == kinds.len();
