@@ -359,7 +359,7 @@ impl Request {
         engine: &Engine<'_>,
     ) -> Result<(Results, String), AssessmentError> {
         let mut varied = Vec::new();
-        let mut paths = self.listed("paths");
+        let mut paths = self.listed("vary");
         if paths.is_empty() {
             paths = on.analysis.built();
         }
@@ -367,9 +367,9 @@ impl Request {
             let unit = dimension_of(path)?.map_or("", Dimension::si_unit);
             let Some(value) = on.analysis.value(path) else {
                 let found = format!("{path:?}, of which the model says nothing");
-                return Err(refuse("paths", "keys that stand in the model as one number", found));
+                return Err(refuse("vary", "keys that stand in the model as one number", found));
             };
-            varied.push(("paths", format!("{path}={value:?} {unit}").trim_end().to_owned()));
+            varied.push(("vary", format!("{path}={value:?} {unit}").trim_end().to_owned()));
         }
         let models = Models::new(on.source, on.text, on.set, &varied, false)?;
         let models = if on.suite.in_plane() { models.in_plane() } else { models };
@@ -466,7 +466,7 @@ impl Request {
             acceleration_share: self
                 .number("share", "a share above 0, at most 1", |p| p > 0.0 && p <= 1.0)?,
         };
-        let bounds = match self.given("bounds") {
+        let bounds = match self.given("friction-factors") {
             Some(text) => Some(factors(text)?),
             None => on.analysis.friction_bounds.map(|bounds| [bounds.lower, bounds.upper]),
         };
@@ -503,6 +503,8 @@ impl Request {
         let of_paths = self.all("vary").map(|text| ("vary", text.to_owned()));
         match self.kind() {
             Kind::Spectrum => varied.extend(of_paths.chain(of_friction)),
+            // Its keys have no values.
+            Kind::Sensitivity => {}
             _ => varied.extend(of_friction.into_iter().chain(of_paths)),
         }
         varied.extend(over.map(|over| ("over", over.to_owned())));
@@ -534,7 +536,11 @@ fn factors(text: &str) -> Result<[f64; 2], AssessmentError> {
         |text: &str| text.trim().parse::<f64>().ok().filter(|v| v.is_finite() && *v >= 0.0);
     match text.split_once(',').and_then(|(a, b)| Some([number(a)?, number(b)?])) {
         Some([lower, upper]) if lower <= upper => Ok([lower, upper]),
-        _ => Err(refuse("bounds", "two factors that rise, such as 0.8,1.3", format!("{text:?}"))),
+        _ => Err(refuse(
+            "friction-factors",
+            "two factors that rise, such as 0.8,1.3",
+            format!("{text:?}"),
+        )),
     }
 }
 

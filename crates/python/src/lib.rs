@@ -3,6 +3,7 @@
 mod assessment;
 mod errors;
 mod laboratory;
+mod legend;
 mod model;
 mod motion;
 mod requests;
@@ -22,6 +23,11 @@ mod _core {
     use super::assessment::{Assessment, assess, fit, read_suite, runs_of, suite};
     #[pymodule_export]
     use super::laboratory::{Comparison, Identified, compare_with, identify};
+    #[pymodule_export]
+    use super::legend::{
+        along, axis, axis_of_column, axis_of_share, axis_of_words, band, change, colours, energies,
+        is_key, lines, words_of_key,
+    };
     #[pymodule_export]
     use super::model::Model;
     #[pymodule_export]

@@ -340,15 +340,15 @@ impl Motion {
     ///
     /// Parameters
     /// ----------
-    /// angle
-    ///     The angle with its unit, ``"30 deg"``.
+    /// angle, angle_deg
+    ///     The angle with its unit, ``"30 deg"``, or a number of degrees by its name, ``angle_deg=30``.
     /// scale_y
     ///     Factor on the component along y before that.
     ///
     /// Raises
     /// ------
     /// InputError
-    ///     For a motion in one direction, an angle without its unit, a factor that is not finite.
+    ///     For a motion in one direction, an angle without its unit, both or neither, a factor that is not finite.
     ///
     /// Examples
     /// --------
@@ -356,18 +356,35 @@ impl Motion {
     /// >>> pair = ss.Motion([0.0, 1.0, 0.0], y=[0.0, 0.5, 0.0], dt=0.1, units="m/s2")
     /// >>> pair.rotated("90 deg").acceleration_y_m_per_s2.tolist()
     /// [0.0, 1.0, 0.0]
-    #[pyo3(signature = (angle, *, scale_y = None))]
+    /// >>> pair.rotated(angle_deg=90) == pair.rotated("90 deg")
+    /// True
+    #[pyo3(signature = (angle = None, *, angle_deg = None, scale_y = None))]
     fn rotated(
         &self,
         py: Python<'_>,
-        angle: &Bound<'_, PyAny>,
+        angle: Option<&Bound<'_, PyAny>>,
+        angle_deg: Option<&Bound<'_, PyAny>>,
         scale_y: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         if self.0.motion.horizontal_y_m_per_s2().is_none() {
             let expected = "a motion in two horizontal directions, which can be turned";
             return Err(of_argument(py, "rotated", expected, "one in one"));
         }
-        let angle_rad = quantity("angle", angle, Dimension::Angle, false)?;
+        let angle_rad = match (angle, angle_deg) {
+            (Some(angle), None) => quantity("angle", angle, Dimension::Angle, false)?,
+            (None, Some(degrees)) => {
+                let degrees = number_in("angle_deg", degrees)?;
+                if !degrees.is_finite() {
+                    let found = degrees.to_string();
+                    return Err(of_argument(py, "angle_deg", "a finite number", &found));
+                }
+                degrees.to_radians()
+            }
+            (given, _) => {
+                let found = if given.is_some() { "both" } else { "neither" };
+                return Err(of_argument(py, "angle", "one of angle and angle_deg", found));
+            }
+        };
         let scale_y = scale_y.map_or(Ok(1.0), |of| number_in("scale_y", of))?;
         Self::derived(py, self.0.turned(scale_y, angle_rad), self)
     }

@@ -11,14 +11,17 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use slipstick::assessment::single::{self, Job, Outcome, Solved};
 use slipstick::error::{SolveError, Stopped};
+use slipstick::model::Contents;
 use slipstick::notice::{Notice, Severity};
 use slipstick::progress::Cancel;
 use slipstick::response::{History, Response as Answer};
 use slipstick_files::{JobError, LoadedMotion, OpenJob, OutputFolder, events_csv, history_csv};
 use slipstick_report::figures::{self, Drawn};
+use slipstick_report::legend;
 use slipstick_report::{DisplayUnits, FileNote, InputText, Report, Summary};
 
 use crate::errors::{of_argument, of_file, of_job};
+use crate::legend::{Line, friction_bounds};
 use crate::model::Model;
 use crate::motion::Motion;
 use crate::work::interruptible;
@@ -259,11 +262,25 @@ impl Response {
         Ok(force.unwrap_or_default().into_pyarray(py))
     }
 
-    /// Static and kinetic friction in N under the weight, each towards +x and −x.
-    fn _friction_limits(&self) -> [[f64; 2]; 2] {
-        let model = &self.model.get().analysis.model;
-        let normal_n = model.normal_n();
-        [model.static_friction(), model.kinetic_friction()].map(|way| way.map(|mu| mu * normal_n))
+    /// Bounds of the friction force in N under the weight, each with the line that it has in figures.
+    fn _friction_bounds(&self) -> Vec<(f64, Line)> {
+        friction_bounds(&self.model.get().analysis.model)
+    }
+
+    /// What figures call the block, and the storeys or points of a structure by its modes.
+    fn _places(&self) -> PyResult<(String, Vec<String>)> {
+        let Summary { names, demands, .. } = self.summary()?;
+        let count = demands.storeys.len().max(demands.points.len());
+        let points = (1..=count).map(|point| legend::point(names, point)).collect();
+        Ok((legend::block(names), points))
+    }
+
+    /// What figures call what slides on the floors.
+    fn _contents(&self) -> PyResult<Vec<String>> {
+        let (names, contents) =
+            (&self.summary()?.names, self.model.get().analysis.model.contents());
+        let name = |(i, of): (usize, &Contents)| legend::contents(names, i + 1, of.floor);
+        Ok(contents.iter().enumerate().map(name).collect())
     }
 
     /// The motion as it was read, without a tail.

@@ -31,6 +31,10 @@ pub(crate) fn plain<'py>(
         let text = format!("{} {}", number.repr()?, pint_units(&value.getattr("units")?)?);
         return Ok(Some(PyString::new(py, &text).into_any()));
     }
+    // An item of a column of PyArrow.
+    if value.hasattr("as_py")? {
+        return plain(path, &value.call_method0("as_py")?);
+    }
     if value.hasattr("mask")? {
         return Err(of_argument(py, path, "a value", "a masked one"));
     }

@@ -1,4 +1,4 @@
 """What pytest leaves out."""
 
-# Read by pyright and mypy, not run: its files are a user's.
-collect_ignore = ["typical_use.py"]
+# What users write: typical use is read by pyright and mypy, not run, for its files are a user's; test_day.py runs the rest.
+collect_ignore = ["typical_use.py", "day"]

@@ -43,7 +43,7 @@ def calls(folder: Path) -> dict[str, Call]:
         "run": (ss.run, {"model": model, "motion": motion}),
         "suite": (ss.suite, {"models": model, "records": records}),
         "spectrum": (ss.spectrum, {"model": model, "records": records, "over": varied}),
-        "sensitivity": (ss.sensitivity, {"model": model, "records": motion, "paths": "block.mass"}),
+        "sensitivity": (ss.sensitivity, {"model": model, "records": motion, "vary": "block.mass"}),
         "ida": (ss.ida, {"model": model, "records": records, "scale_to": 2.0}),
         "fragility": (ss.fragility, {"source": ida}),
         "design": (ss.design, {"model": model, "records": records, "vary": varied, "gap": 0.5, "sensitivity": 0}),

@@ -88,7 +88,7 @@ def test_a_table_draws_its_columns() -> None:
     pytest.importorskip("matplotlib").use("Agg")
     table = ss.demands(block(), pulse(), {"slider.kinetic_friction": [0.05, 0.06, 0.08]})
     axes = table.plot("slider.kinetic_friction", color="C3")
-    assert axes.get_ylabel() == "peak_sliding_displacement_m [m]" and axes.lines[0].get_color() == "C3"
+    assert axes.get_ylabel() == "Peak sliding displacement (mm)" and axes.lines[0].get_color() == "C3"
     assert response().history.plot("time_s", "sliding_displacement_m", ax=axes) is axes
     with pytest.raises(ss.InputError, match="^y: expected a column among run, "):
         table.plot("slider.kinetic_friction", "nothing")

@@ -156,7 +156,7 @@ def test_curves_are_drawn(tmp_path: Path) -> None:
     assert len(found.plot()) == 2
     _, ax = matplotlib.pyplot.subplots()
     assert found.plot("sliding_displacement", ax=ax) is ax and "mm" in ax.get_ylabel()
-    assert ss.identify.cyclic(CYCLIC[0]).plot()[0].get_xlabel() == "displacement [mm]"
+    assert ss.identify.cyclic(CYCLIC[0]).plot()[0].get_xlabel() == "Displacement (mm)"
     matplotlib.pyplot.close("all")
 
 

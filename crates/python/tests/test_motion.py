@@ -104,6 +104,7 @@ def test_motions_in_two_directions(tmp_path: Path) -> None:
     turned = both.rotated("90 deg")
     assert np.array_equal(turned.acceleration_m_per_s2, -y)
     assert np.array_equal(turned.acceleration_y_m_per_s2, both.acceleration_m_per_s2)
+    assert both.rotated(angle_deg=90) == turned and both.rotated(angle_deg=np.float64(30)) == both.rotated("30 deg")
     halved = both.rotated("0 deg", scale_y=0.5).acceleration_y_m_per_s2
     assert np.array_equal(halved, 0.5 * y)
     assert both.scaled(2.0).acceleration_y_m_per_s2 is not None
@@ -114,6 +115,9 @@ def test_motions_in_two_directions(tmp_path: Path) -> None:
     for wrong, told in [
         (lambda: pulse().rotated("30 deg"), "two horizontal directions"),
         (lambda: both.rotated(30), "^angle: expected an angle with its unit"),
+        (lambda: both.rotated("30 deg", angle_deg=30), "^angle: expected one of angle and angle_deg, found both$"),
+        (lambda: both.rotated(), "^angle: expected one of angle and angle_deg, found neither$"),
+        (lambda: both.rotated(angle_deg=float("nan")), "^angle_deg: "),
         (lambda: ss.Motion([0.0, 1.0], y=[0.0], dt=0.1, units="g"), "^y: expected 2 values"),
     ]:
         with pytest.raises(ss.InputError, match=told):

@@ -203,8 +203,14 @@ def test_old_words_are_taken_with_a_warning() -> None:
     assert [str(w.message) for w in caught] == [
         "demands: motion is called records now", "demands: designs is called vary now"]
     assert {w.filename for w in caught} == {__file__} and old == ss.demands(block(), records=records, vary=radii)
-    with pytest.warns(DeprecationWarning, match="^sensitivity: motions is called records now$"):
-        ss.sensitivity(block(), motions=records, paths="block.mass")  # type: ignore[call-arg]
+    with pytest.warns(DeprecationWarning) as caught:
+        old = ss.sensitivity(block(), motions=records, paths="block.mass")  # type: ignore[call-arg]
+    assert [str(w.message) for w in caught] == [
+        "sensitivity: motions is called records now", "sensitivity: paths is called vary now"]
+    assert old == ss.sensitivity(block(), records, vary="block.mass")
+    with pytest.warns(DeprecationWarning, match="^design: bounds is called friction_factors now$"):
+        old = ss.design(block(), records, radii, gap=0.5, sensitivity=0, bounds=(0.9, 1.1))  # type: ignore[call-arg]
+    assert old == ss.design(block(), records, radii, gap=0.5, sensitivity=0, friction_factors=(0.9, 1.1))
     with pytest.warns(DeprecationWarning, match="^demands: levels is called scale_to now$"):
         old = ss.demands(block(), records, radii, levels=[1.0, 2.0])  # type: ignore[call-arg]
     assert old == ss.demands(block(), records, radii, scale_to=[1.0, 2.0])

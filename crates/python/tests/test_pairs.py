@@ -99,7 +99,7 @@ CASES: list[tuple[str, Callable[..., ss.Assessment], list[Any], dict[str, Any], 
         ss.sensitivity,
         ["slider.radius"],
         {"measure": "PGV", "scale_to": "0.3 m/s"},
-        ["--paths", "slider.radius", "--measure", "PGV", "--scale-to", "0.3 m/s"],
+        ["--vary", "slider.radius", "--measure", "PGV", "--scale-to", "0.3 m/s"],
         "sensitivity",
     ),
     (
@@ -178,7 +178,7 @@ def test_a_fragility_of_pairs_takes_each_once() -> None:
 
 def test_a_study_of_motions_in_two_directions_is_that_of_the_command(tmp_path: Path) -> None:
     vary = {"slider.radius": ["1 m", "2 m"]}
-    asked: dict[str, Any] = {"method": "grid", "measure": "RotD50(1.2 s)", "levels": ["0.2 g", "0.4 g"]}
+    asked: dict[str, Any] = {"method": "grid", "measure": "RotD50(1.2 s)", "scale_to": ["0.2 g", "0.4 g"]}
     found = ss.study(ss.Plan(model(), pairs(), vary, **asked))
     first, second = apart()
     beside = ss.study(ss.Plan(model(), first, vary, second=second, **asked))
@@ -279,15 +279,15 @@ def test_figures_in_two_directions_say_which_axis() -> None:
     response = ss.run(model(), next(iter(pairs().values())))
     sliding, acceleration, loop = response.plot()
     assert [line.get_label() for line in sliding.lines][::2] == ["along x", "along y"]
-    assert acceleration.get_ylabel() == "acceleration along x [g]"
-    assert [line.get_label() for line in acceleration.lines] == ["table", "block", "floor 1"]
+    assert acceleration.get_ylabel() == "Acceleration along x (g)"
+    assert [line.get_label() for line in acceleration.lines] == ["ground", "block", "storey 1"]
     assert [line.get_label() for line in loop.lines] == ["along x", "along y"]
     knots = response.knots
     top = response.plot.acceleration(along="y").lines[2].get_ydata()
     assert list(top) == list(knots["storey1_acceleration_y_m_per_s2"] / 9.80665)
     both = response.plot.history(along="resultant").lines[0].get_ydata()
     assert np.allclose(both, 1e3 * np.hypot(knots["sliding_displacement_m"], knots["sliding_displacement_y_m"]))
-    assert response.plot.drift(along="y").get_ylabel() == "drift along y [mm]"
+    assert response.plot.drift(along="y").get_ylabel() == "Drift along y (mm)"
     with pytest.raises(ValueError, match="^along: expected one of x, y, both"):
         response.plot.loop(along="resultant")
 
@@ -296,7 +296,7 @@ def test_a_structure_by_its_modes_is_drawn_by_the_names_of_its_points() -> None:
     pytest.importorskip("matplotlib").use("Agg")
     response = ss.run(ss.Model.read(EXAMPLES / "structures" / "building.toml"))
     assert [line.get_label() for line in response.plot.drift().lines] == ["First", "Second", "Roof"]
-    assert [line.get_label() for line in response.plot.acceleration().lines] == ["table", "block", "Roof"]
+    assert [line.get_label() for line in response.plot.acceleration().lines] == ["ground", "block", "Roof"]
 
 
 def test_floor_spectra_of_a_pair() -> None:
@@ -309,10 +309,10 @@ def test_floor_spectra_of_a_pair() -> None:
         largest = np.asarray(spectra[key])
         assert (largest >= np.maximum(x, y)).all() and (largest <= np.hypot(x, y)).all()
     drawn = response.plot.floor_spectra()
-    assert drawn.get_ylabel() == "spectral acceleration RotD100 [g]"
+    assert drawn.get_ylabel() == "Spectral acceleration (g), RotD100"
     assert list(drawn.lines[1].get_ydata()) == [a / 9.80665 for a in spectra["block_acceleration_m_per_s2"]]
     drawn = response.plot.floor_spectra(along="y")
-    assert drawn.get_ylabel() == "spectral acceleration along y [g]"
+    assert drawn.get_ylabel() == "Spectral acceleration (g), along y"
     assert list(drawn.lines[1].get_ydata()) == [a / 9.80665 for a in spectra["y"]["block_acceleration_m_per_s2"]]
     with pytest.raises(ValueError, match="along: expected one of x, y, found 'both'"):
         response.plot.floor_spectra(along="both")

@@ -122,21 +122,21 @@ def test_every_result_has_a_picture_and_a_plot() -> None:
     curve = fragility_.plot()  # type: ignore[attr-defined]
     table = fragility_.table  # type: ignore[attr-defined]
     assert list(curve.lines[0].get_ydata()) == list(table["probability"]) and len(curve.collections) == 1
-    assert curve.get_ylabel() == "probability of exceedance" and curve.get_xlabel() == "PGA [g]"
+    assert curve.get_ylabel() == "Probability of exceedance" and curve.get_xlabel() == "PGA (g)"
     drawn = spectrum_.plot().lines  # type: ignore[attr-defined]
     shares = [f"peak_sliding_displacement_m_p{share}" for share in (16, 50, 84)]
     bounds = list(dict.fromkeys(spectrum_.table["friction"]))  # type: ignore[attr-defined]
     for line, (name, share) in zip(drawn, [(name, share) for name in bounds for share in shares], strict=True):
         rows = [bound == name for bound in spectrum_.table["friction"]]  # type: ignore[attr-defined]
         assert np.allclose(line.get_ydata(), 1e3 * spectrum_.table[share][rows])  # type: ignore[attr-defined]
-    assert study_.plot().get_xlabel() == "slider.radius [m]"  # type: ignore[attr-defined]
-    assert study_.plot().get_ylabel() == "peak sliding displacement [mm]"  # type: ignore[attr-defined]
+    assert study_.plot().get_xlabel() == "radius (m)"  # type: ignore[attr-defined]
+    assert study_.plot().get_ylabel() == "Peak sliding displacement (mm)"  # type: ignore[attr-defined]
     assert len(ida_.plot().lines) == len(records) + 1  # type: ignore[attr-defined]
     assert suite_.plot().get_xlabel() == "record"  # type: ignore[attr-defined]
     front = ss.design(model.with_({"slider.bounds": None}), records, {"slider.radius": "1..3 m:4"}, gap="300 mm")
     axes = front.plot()
     assert np.allclose(axes.lines[0].get_xdata(), 1e3 * front.table["displacement_m"])
-    assert axes.get_ylabel() == "floor acceleration [g]"
+    assert axes.get_ylabel() == "Acceleration not exceeded in 50 % of the records (g)"
     axes = results[3].plot("slider.radius", by="record", color="k", lw=2)  # type: ignore[attr-defined]
     assert axes.lines[0].get_color() == "k" and len(axes.lines) == len(records)
     assert response.plot.loop(ax=axes, lw=3) is axes and axes.lines[-1].get_linewidth() == 3

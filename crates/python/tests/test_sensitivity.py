@@ -44,7 +44,7 @@ def test_a_derivative_is_the_difference_of_runs() -> None:
 def test_the_answer_is_that_of_the_command(tmp_path: Path) -> None:
     model = ss.Model.read(EXAMPLES / "taft.toml")
     found = ss.sensitivity(model, None, PATHS)
-    asked = ["--paths", ",".join(PATHS), "--json", "-q", "--out", tmp_path / "out"]
+    asked = ["--vary", ",".join(PATHS), "--json", "-q", "--out", tmp_path / "out"]
     assert found._core._summary_json() == command("sensitivity", EXAMPLES / "taft.toml", *asked)
     assert found.table.to_csv() == (tmp_path / "out" / "sensitivity.csv").read_text()
     assert "<svg" in found._repr_html_() and found.figures["tornado"] in found._repr_html_()
@@ -78,10 +78,10 @@ def test_all_numbers_of_the_model_are_derived_where_no_path_is_named() -> None:
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
-        ({"paths": "slider.radius"}, "^paths: expected keys that stand in the model as one number"),
-        ({"paths": "slider.raduis"}, 'nearest is "slider.radius"'),
-        ({"paths": "block.mass", "demand": "slip_count"}, "^demand: expected a demand that is a number"),
-        ({"paths": "block.mass", "records": {}}, "^records: expected at least one motion"),
+        ({"vary": "slider.radius"}, "^vary: expected keys that stand in the model as one number"),
+        ({"vary": "slider.raduis"}, 'nearest is "slider.radius"'),
+        ({"vary": "block.mass", "demand": "slip_count"}, "^demand: expected a demand that is a number"),
+        ({"vary": "block.mass", "records": {}}, "^records: expected at least one motion"),
     ],
 )
 def test_what_cannot_be_derived_is_told(arguments: dict[str, object], told: str) -> None:

@@ -414,10 +414,10 @@ def test_figures_return_axes(tmp_path: Path) -> None:
     _, ax = matplotlib.pyplot.subplots()
     assert response.plot.loop(ax=ax) is ax
     # On axes of one's own the history alone, as of motions and comparisons.
-    assert response.plot(ax=ax, color="k") is ax and ax.get_ylabel() == "sliding displacement [mm]"
+    assert response.plot(ax=ax, color="k") is ax and ax.get_ylabel() == "Sliding displacement s (mm)"
     plot = response.plot
     for draw in [plot.history, plot.acceleration, plot.energy, plot.drift, plot.demand]:
-        assert draw().get_xlabel() == "time [s]"
+        assert draw().get_xlabel() == "Time (s)"
     with pytest.raises(ValueError, match="floor_spectrum=True"):
         plot.floor_spectra()
     spectra = ss.run(response.model, floor_spectrum=True).plot.floor_spectra()
@@ -431,7 +431,7 @@ def test_figures_return_axes(tmp_path: Path) -> None:
             "contents": [{"floor": 0, "mass": "1 kg", "static_friction": 0.05, "kinetic_friction": 0.04}],
         }
     )
-    assert ss.run(devices, pulse()).plot.contents().get_legend_handles_labels()[1] == ["contents 1"]
+    assert ss.run(devices, pulse()).plot.contents().get_legend_handles_labels()[1] == ["contents 1 on block"]
     matplotlib.pyplot.close("all")
 
 

@@ -71,7 +71,9 @@ def test_one_rule_for_values_in_every_call() -> None:
     radii = np.array([1.0, 2.0])
     frame = pandas.DataFrame({"slider.radius": radii, "block.mass": [300.0, 400.0]})
     listed = ["1 m", "200 cm"]
-    for values in (radii, frame["slider.radius"], radii.tolist(), [1, "2 m"]):
+    columns = [pytest.importorskip(name) for name in ("polars", "pyarrow")]
+    columns = [columns[0].Series(radii), columns[1].array(radii), columns[1].chunked_array([radii])]
+    for values in (radii, frame["slider.radius"], radii.tolist(), [1, "2 m"], *columns):
         given = {"slider.radius": values}
         text = {"slider.radius": listed}
         assert ss.spectrum(block(), records, given).table == ss.spectrum(block(), records, text).table

@@ -68,6 +68,11 @@ pub struct Unit {
 }
 
 impl Unit {
+    /// A second.
+    pub const SECOND: Self = Self { in_si: 1.0, symbol: "s" };
+    /// What a ratio is in.
+    pub const NONE: Self = Self { in_si: 1.0, symbol: "" };
+
     /// A value given in SI in this unit.
     #[must_use]
     pub fn of(&self, si: f64) -> f64 {

@@ -8,6 +8,7 @@ mod plane;
 mod spectra;
 mod trace;
 
+pub use force::friction_bounds;
 pub(crate) use histories::marked;
 pub(crate) use trace::Trace;
 
@@ -15,6 +16,7 @@ use slipstick::input::Names;
 use slipstick::response::{History, Mode};
 
 use crate::display::Unit;
+use crate::legend::TIME;
 use crate::plot::{Axis, Figure, Svg};
 use crate::report::Report;
 
@@ -86,7 +88,7 @@ impl<'a> Scene<'a> {
 
     fn time_axis(&self) -> Axis {
         let end_s = self.history.time_s.last().copied().unwrap_or(0.0);
-        Axis::linear("Time (s)", 0.0, end_s)
+        Axis::linear(TIME.alone(Unit::SECOND), 0.0, end_s)
     }
 
     /// Points over time: one value a knot, in a unit.

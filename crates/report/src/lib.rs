@@ -48,6 +48,7 @@ pub(crate) mod floors;
 pub mod html;
 pub mod json;
 pub mod laboratory;
+pub mod legend;
 pub mod markup;
 pub mod number;
 pub mod opensees;

@@ -10,9 +10,9 @@ use crate::failure::Failure;
 
 pub const SENSITIVITY_EXAMPLES: &str = "\
 Examples:
-  slipstick sensitivity tank.toml --paths slider.kinetic_friction,slider.radius --out out
+  slipstick sensitivity tank.toml --vary slider.kinetic_friction,slider.radius --out out
   slipstick sensitivity tank.toml --records 'records/*.txt' --units g --dt \"0.01 s\" \\
-      --paths slider.radius,storey.1.period --demand peak_sliding_displacement_m
+      --vary slider.radius,storey.1.period --demand peak_sliding_displacement_m
 
 Derivatives are differences of exact runs, each with its error; a step within which the order or
 number of events changes is marked. Without --records the model's own motion is used. Of 20 keys
@@ -81,7 +81,7 @@ Examples:
 Designs of the grid are compared by two figures: the sliding displacement not exceeded in the
 stated share of the records, and the floor acceleration not exceeded in half of them (--share).
 The design within the gap with the least acceleration is chosen; with slider.bounds in the model, or
---bounds, the front is run again with lower and upper friction.
+--friction-factors, the front is run again with lower and upper friction.
 
 The exit status is 1 if no design stays within the gap.
 

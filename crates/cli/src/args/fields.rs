@@ -47,6 +47,7 @@ fn option(field: &'static Field) -> Arg {
         .value_name(field.value)
         .help(field.about)
         .help_heading(MOTION.contains(&field.name).then_some("Ground motion"));
+    let arg = if field.formerly.is_empty() { arg } else { arg.alias(field.formerly) };
     let arg = match field.takes {
         Takes::Flag => return arg.action(ArgAction::SetTrue),
         Takes::Many => arg.action(ArgAction::Append),

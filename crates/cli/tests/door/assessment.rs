@@ -171,6 +171,7 @@ fn every_curve_of_a_spectrum_has_its_own_figure() {
 fn every_demand_of_a_sensitivity_is_told() {
     let folder = suite("sensitivity-demands", 1);
     let mut arguments = vec!["sensitivity", "model.toml", "--records", "records", "--out", "out"];
+    // By the old name of --vary.
     arguments.extend(["--paths", "slider.kinetic_friction", "-q"]);
     let keys = [
         "peak_base_shear_n",

@@ -236,7 +236,7 @@ pub fn run_derivatives(
         .map(|axis| Key { path: axis.path.clone(), unit: axis.unit.clone(), value: axis.values[0] })
         .collect();
     if keys.is_empty() {
-        return Err(refuse("paths", "keys, such as slider.kinetic_friction", "nothing"));
+        return Err(refuse("vary", "keys, such as slider.kinetic_friction", "nothing"));
     }
     let columns = columns(request)?;
     let values: Vec<f64> = keys.iter().map(|key| key.value).collect();
@@ -632,7 +632,7 @@ mod tests {
 
     fn derivatives(text: &str, motion: GroundMotion, keys: &[(&str, &str)]) -> DerivativeRun {
         let varied: Vec<(&str, String)> =
-            keys.iter().map(|(path, value)| ("paths", format!("{path}={value}"))).collect();
+            keys.iter().map(|(path, value)| ("vary", format!("{path}={value}"))).collect();
         let models = Models::new("m.toml", text, &[], &varied, false).unwrap();
         let suite = Suite::of([("pulse".to_owned(), Loaded::made(motion, String::new()))], false);
         let request = DerivativeRequest {

@@ -142,7 +142,10 @@ fn header(section: &str, at_start: bool) -> String {
 
 fn value(leaf: &Leaf) -> String {
     match leaf.given {
-        LeafValue::Number(_) if leaf.unit.is_empty() => leaf.written.clone(),
+        // What is written in percent is a text.
+        LeafValue::Number(_) if leaf.unit.is_empty() && !leaf.written.trim_end().ends_with('%') => {
+            leaf.written.clone()
+        }
         _ => quoted(&leaf.written),
     }
 }
@@ -185,6 +188,17 @@ mod tests {
             let second = parse("b.toml", &written, &[]).unwrap();
             assert_eq!(first.model, second.model, "{written}");
         }
+    }
+
+    #[test]
+    fn ratios_in_percent_read_back_the_same() {
+        let text = "[block]\nmass = \"1 t\"\n[slider]\nstatic_friction = \"6 %\"\n\
+            kinetic_friction = { positive = \"5%\", negative = \"4 % \" }\n\
+            [[storey]]\nmass = \"1 t\"\nfrequency = \"2 Hz\"\ndamping_ratio = \"2 %\"\n";
+        let first = parse("a.toml", text, &[]).unwrap();
+        let written = first.to_toml_with_motion();
+        let second = parse("b.toml", &written, &[]).unwrap_or_else(|e| panic!("{e}: {written}"));
+        assert_eq!(first.model, second.model, "{written}");
     }
 
     #[test]

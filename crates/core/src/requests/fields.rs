@@ -42,6 +42,8 @@ pub enum Measures {
 pub struct Field {
     /// Its name, of which every door makes its own word: see [`FrontEnd::calls`].
     pub name: &'static str,
+    /// What it was called, which every door takes still; empty where it has always had its name.
+    pub formerly: &'static str,
     /// What stands for its text in a help: `VALUES`.
     pub value: &'static str,
     /// How often it is given.
@@ -63,7 +65,12 @@ pub struct Field {
 impl Field {
     pub(super) const fn new(name: &'static str, value: &'static str, about: &'static str) -> Self {
         let (takes, measures, is_range) = (Takes::One, Measures::Nothing, false);
-        Self { name, value, takes, measures, is_range, default: "", key: "", sample: "", about }
+        let [formerly, default, key, sample] = [""; 4];
+        Self { name, formerly, value, takes, measures, is_range, default, key, sample, about }
+    }
+
+    pub(super) const fn formerly(self, formerly: &'static str) -> Self {
+        Self { formerly, ..self }
     }
 
     pub(super) const fn measuring(self, measures: Measures) -> Self {
@@ -191,7 +198,7 @@ impl Request {
     ) -> Result<Self, ChoiceError> {
         let mut asked = Self { kind, given: Vec::new(), certifies: true };
         for (name, text) in given {
-            let Some(field) = kind.fields().iter().find(|field| field.name == name) else {
+            let Some(field) = kind.field(name) else {
                 return Err(ChoiceError {
                     what: kind.name().to_owned(),
                     expected: "one of its fields".to_owned(),
@@ -199,6 +206,7 @@ impl Request {
                     nearest: similar(name, kind.fields().iter().map(|field| field.name)),
                 });
             };
+            let name = field.name;
             let words = match field.takes {
                 Takes::Choice(words) => words,
                 Takes::Flag => &["true", "false"],
@@ -259,8 +267,7 @@ impl Request {
 
     /// The text of a field: the one given, or its default.
     pub(super) fn one(&self, name: &str) -> &str {
-        let field = self.kind.fields().iter().find(|field| field.name == name);
-        self.given(name).or(field.map(|field| field.default)).unwrap_or_default()
+        self.given(name).or(self.kind.field(name).map(|field| field.default)).unwrap_or_default()
     }
 
     /// A number that fits, in the text of a field.
@@ -324,6 +331,20 @@ pub(super) fn wrong(name: &str, expected: &str, found: &str) -> ChoiceError {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_field_is_given_by_its_old_name_too() {
+        for (kind, old, name, text) in [
+            (Kind::Sensitivity, "paths", "vary", "slider.radius"),
+            (Kind::Design, "bounds", "friction-factors", "0.8,1.3"),
+        ] {
+            let by = |name| Request::new(kind, [(name, text.to_owned())]).unwrap();
+            assert_eq!(by(old), by(name));
+            assert_eq!(by(old).one(name), text);
+        }
+        // A word that others have still is of them alone.
+        assert!(Kind::Spectrum.field("bounds").is_some() && Kind::Ida.field("paths").is_none());
+    }
 
     #[test]
     fn what_is_no_field_is_said_with_the_nearest() {

@@ -207,11 +207,12 @@ const SPECTRUM: &[Field] = &[
 /// Fields of derivatives.
 const SENSITIVITY: &[Field] = &[
     Field::new(
-        "paths",
+        "vary",
         "PATHS",
         "Keys of the model that the demands are derived by: slider.kinetic_friction,slider.radius; all numbers of \
          slider, block and structure if left out; may be repeated",
     )
+    .formerly("paths")
     .many(),
     MEASURE,
     SCALE_TO,
@@ -336,10 +337,11 @@ const DESIGN: &[Field] = &[
     Field::new("share", "SHARE", "Share of the records that must not exceed that acceleration")
         .or("0.5"),
     Field::new(
-        "bounds",
+        "friction-factors",
         "LOWER,UPPER",
         "Factors on friction for the robustness check: 0.8,1.3; slider.bounds of the model if left out",
-    ),
+    )
+    .formerly("bounds"),
     Field::new(
         "sensitivity",
         "N",
@@ -546,6 +548,14 @@ impl Kind {
         }
     }
 
+    /// A field by its name, or by what it was called.
+    #[must_use]
+    pub fn field(self, name: &str) -> Option<&'static Field> {
+        let called =
+            |field: &&Field| field.name == name || (!name.is_empty() && field.formerly == name);
+        self.fields().iter().find(called)
+    }
+
     /// Its fields, in the order of a help.
     #[must_use]
     pub fn fields(self) -> &'static [Field] {
@@ -657,7 +667,9 @@ mod tests {
             assert_eq!((kind as usize, Kind::of_name(kind.name())), (place, Some(kind)));
             let fields = kind.fields();
             for (i, field) in fields.iter().enumerate() {
-                assert!(fields[..i].iter().all(|other| other.name != field.name), "{}", field.name);
+                let names = |of: &Field| [of.name, of.formerly].contains(&field.name);
+                assert!(!fields[..i].iter().any(names), "{}", field.name);
+                assert_eq!(kind.field(field.name), Some(field));
                 let given = (field.name, field.default.to_owned());
                 let asked = Request::new(kind, [given]).unwrap();
                 assert_eq!(asked.one(field.name), field.default, "{}", field.name);

@@ -1,7 +1,7 @@
 //! What is asked of models on the records of suites, and of one motion over a parameter.
 
 use super::fields::{Request, quantity, wrong};
-use super::{Answer, AtHazard, Kind, On, Results, of_measure};
+use super::{Answer, AtHazard, On, Results, of_measure};
 use crate::assessment::code::{
     Code, Judged, Judgement, Plan, PropertyFactors, bounds_of, judge, named,
 };
@@ -271,8 +271,7 @@ impl Request {
         let listed = |texts: &[String]| format!("[{}]", texts.join(", "));
         let quoted = |text: &str| format!("{text:?}");
         let mut plan = format!("name = {}\nmodel = \"{}\"\n", quoted(on.name), on.source);
-        // Those of a design are factors.
-        if let Some(bound) = self.given("bounds").filter(|_| self.kind() != Kind::Design) {
+        if let Some(bound) = self.given("bounds") {
             plan.push_str(&format!("bounds = {}\n", quoted(bound)));
         }
         if !on.suite.made {
@@ -459,8 +458,10 @@ mod tests {
         let radius_m: f64 = radius.split(' ').next().unwrap().parse().unwrap();
         let rate = 1.0 / core::f64::consts::TAU;
         assert_eq!(radius_m, 9.80665 * rate * rate);
-        let design =
-            asked(Kind::Design, &[("vary", "slider.radius=1..2m:3"), ("bounds", "0.8,1.2")]);
+        let design = asked(
+            Kind::Design,
+            &[("vary", "slider.radius=1..2m:3"), ("friction-factors", "0.8,1.2")],
+        );
         assert!(
             Plan::parse("plan.toml", &design).is_ok() && design.contains("scale = [1.0]"),
             "{design}"

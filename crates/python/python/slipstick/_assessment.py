@@ -95,7 +95,7 @@ class Assessment(Result):
         if kind == "fragility":
             return _plot.draw_fragility(self.table, self.summary, ax, **kwargs)
         if kind == "front":
-            return _plot.draw_front(self.table, ax, **kwargs)
+            return _plot.draw_front(self.table, self.summary, ax, **kwargs)
         if kind == "ida":
             return _plot.draw_ida(self.table, self.summary, ax, **kwargs)
         return None
@@ -377,12 +377,12 @@ class Sensitivity(Assessment):
         return draw_tornado(self.table, chosen, ax, most, **kwargs)
 
 
-@renamed(motions="records")
+@renamed(motions="records", paths="vary")
 @checked
 def sensitivity(
     model: _core.Model,
     records: Records | Suite | None,
-    paths: str | Sequence[str] = (),
+    vary: str | Sequence[str] = (),
     *,
     measure: str | None = None,
     scale_to: Value | None = None,
@@ -404,7 +404,7 @@ def sensitivity(
         The model.
     records
         A motion or several, as in ``suite``, in one direction or in two; None for the model's own.
-    paths
+    vary
         Keys that stand in the model as one number, ``["slider.kinetic_friction", "storey.1.mass"]``; all of slider,
         block and structure if left out.
     measure, scale_to, scale
@@ -663,6 +663,7 @@ def _own_data(own: Mapping[str, Any], measure: str | None, units: str | None) ->
     return Table(columns, {next(iter(columns)): unit} if unit else None)
 
 
+@renamed(bounds="friction_factors")
 @checked
 def design(
     model: _core.Model,
@@ -677,7 +678,7 @@ def design(
     probability: float | None = None,
     demand: str | None = None,
     share: float | None = None,
-    bounds: tuple[float, float] | None = None,
+    friction_factors: tuple[float, float] | None = None,
     sensitivity: int | None = None,
     seed: int | None = None,
     confidence: float | None = None,
@@ -704,7 +705,7 @@ def design(
         the roof's if left out.
     measure, scale_to, scale
         As in ``spectrum``.
-    bounds
+    friction_factors
         Factors on friction for the check of robustness; those of the model if left out.
     sensitivity, seed
         Sample points of Sobol' indices, 0 for none, and their seed.

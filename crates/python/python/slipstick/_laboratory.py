@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, overload
 
 import numpy as np
 
@@ -88,6 +88,12 @@ class _Test(Result):
         """
         return write(path, self._tell("_report_html", units))
 
+    @overload
+    def plot(self, name: str, *, ax: Axes | None = None, **kwargs: Any) -> Axes: ...
+    @overload
+    def plot(self, name: str | None = None, *, ax: Axes, **kwargs: Any) -> Axes: ...
+    @overload
+    def plot(self, name: None = None, *, ax: None = None, **kwargs: Any) -> NDArray[np.object_]: ...
     def plot(
         self, name: str | None = None, *, ax: Axes | None = None, **kwargs: Any
     ) -> NDArray[np.object_] | Axes:

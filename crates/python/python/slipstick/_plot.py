@@ -1,13 +1,19 @@
-"""Figures in Matplotlib; each returns its axes."""
+"""Figures in Matplotlib; each returns its axes.
+
+What axes and lines are called, in which units and colours, the core says to this module as to the reports.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from functools import cache
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
+from . import _core
+
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
     from typing import Any
 
     from matplotlib.animation import FuncAnimation
@@ -19,7 +25,53 @@ if TYPE_CHECKING:
     from ._response import Response
     from ._table import Table
 
-G = 9.80665
+
+class Axis(NamedTuple):
+    """What stands along an axis: its label with the unit, the unit, and what one of it is in SI."""
+
+    label: str
+    symbol: str
+    in_si: float
+
+    @classmethod
+    def of(cls, quantity: str, *values: Any, along: str = "") -> Axis:
+        """That of a quantity with these values, perhaps along ``x``, ``y`` or the ``resultant``."""
+        return cls(*_core.axis(quantity, _largest(values), along))
+
+    @classmethod
+    def of_column(cls, table: Table, name: str, measure: str | None = None) -> Axis:
+        """That of a column of a table, of an intensity by its name; of what the core does not know as it is."""
+        unit = table.units.get(name, "")
+        values = (table[name],) if isinstance(table[name], np.ndarray) else ()
+        known = _core.axis_of_column(name, unit, _largest(values), measure)
+        return cls(*known) if known is not None else cls(f"{name} ({unit})" if unit else name, unit, 1.0)
+
+    def shown(self, values: Any) -> NDArray[np.float64]:
+        """Values in its unit."""
+        return np.asarray(values, dtype=float) / self.in_si
+
+
+def _largest(values: Iterable[Any]) -> float:
+    """The largest of finite values in size."""
+    finite = [np.abs(of[np.isfinite(of)]) for of in (np.asarray(one, dtype=float) for one in values)]
+    return max((float(of.max()) for of in finite if of.size), default=0.0)
+
+
+@cache
+def _lines() -> dict[str, tuple[str, str, float, str]]:
+    return dict(_core.lines())
+
+
+def _of_line(line: tuple[str, str, float, str], given: Mapping[str, Any], **usual: Any) -> dict[str, Any]:
+    """How a line of the core is drawn, but for what is given."""
+    label, colour, width, dashes = line
+    pattern = (0.0, tuple(float(part) for part in dashes.split())) if dashes else "-"
+    return style(given, **{"label": label or None, "color": colour, "lw": width, "ls": pattern, **usual})
+
+
+def _line(name: str, given: Mapping[str, Any], **usual: Any) -> dict[str, Any]:
+    """The same of a line by its name."""
+    return _of_line(_lines()[name], given, **usual)
 
 
 class Plotter:
@@ -68,16 +120,18 @@ class Plotter:
         knots, ax = self._response.knots, axes_or_new(ax)
         time = knots["time_s"]
         _shade(ax, knots)
-        for i, axis in enumerate(self._along(along, "both")):
-            s = 1e3 * _of_axis(knots, "sliding_displacement_m", axis)
-            ax.plot(time, s, **style(kwargs, label=_said(axis) or None))
+        axes = self._along(along, "both")
+        drawn = [_of_axis(knots, "sliding_displacement_m", axis) for axis in axes]
+        upwards = Axis.of("sliding", *drawn, along=axes[0] if len(axes) == 1 else "")
+        for axis, moved, colour in zip(axes, drawn, distinct(len(axes))):
+            s = upwards.shown(moved)
+            said = _core.along(axis)
+            ax.plot(time, s, **_line("main", kwargs, color=colour, label=said if len(axes) > 1 else None))
             at = int(np.argmax(np.abs(s)))
-            peak = f"peak{_said(axis, ' ')} {s[at]:.4g} mm"
-            ax.plot(time[at], s[at], "o", ms=4, color=f"C{3 + i}", label=peak)
+            peak = f"peak {said} {s[at]:.4g} {upwards.symbol}" if len(axes) > 1 else f"peak {s[at]:.4g} {upwards.symbol}"
+            ax.plot(time[at], s[at], "o", ms=4, color=colour if len(axes) > 1 else _lines()["limit"][1], label=peak)
         ax.legend(loc="best", frameon=False)
-        ax.set(xlabel="time [s]", ylabel="sliding displacement [mm]")
-        ax.margins(x=0)
-        return ax
+        return _over_time(ax, upwards)
 
     def acceleration(self, ax: Axes | None = None, *, along: str | None = None, **kwargs: Any) -> Axes:
         """Accelerations of table, block and top floor, or last point of a structure by its modes, over time.
@@ -86,28 +140,24 @@ class Plotter:
         """
         knots, ax = self._response.knots, axes_or_new(ax)
         (axis,) = self._along("x" if along == "both" else along, "x")
-        time = knots["time_s"]
-        parts = [("table", "table_acceleration_m_per_s2"), ("block", "block_acceleration_m_per_s2")]
-        parts += self._points("acceleration_m_per_s2")[-1:]
-        for label, name in parts:
-            of_table = {"color": "0.7"} if label == "table" else {}
-            ax.plot(time, _of_axis(knots, name, axis) / G, **style(kwargs, lw=0.8, label=label, **of_table))
-        ax.legend(loc="best", frameon=False)
-        ax.set(xlabel="time [s]", ylabel=f"acceleration{_said(axis, ' ')} [g]")
-        ax.margins(x=0)
-        return ax
+        block, _ = self._response._core._places()
+        parts: list[tuple[str, str, dict[str, Any]]] = [
+            ("ground", "table_acceleration_m_per_s2", {}),
+            ("block", "block_acceleration_m_per_s2", {"label": block}),
+        ]
+        for label, name in self._points("acceleration_m_per_s2")[-1:]:
+            parts.append(("main", name, {"label": label, "color": distinct(2)[1]}))
+        drawn = [(line, _of_axis(knots, name, axis), usual) for line, name, usual in parts]
+        upwards = Axis.of("acceleration", *(values for _, values, _ in drawn), along=axis)
+        for line, values, usual in drawn:
+            ax.plot(knots["time_s"], upwards.shown(values), **_line(line, kwargs, **usual))
+        return _over_time(ax, upwards)
 
     def _points(self, quantity: str) -> list[tuple[str, str]]:
-        """Names of floors, or of points of a structure by its modes, with the column of a quantity of each."""
-        knots, summary = self._response.knots, self._response.summary
-        of_structure = bool(summary.get("points"))
-        part, called = ("point", "point") if of_structure else ("storey", "floor")
-        told = summary.get("points" if of_structure else "storeys") or []
-        columns = [f"{part}{i}_{quantity}" for i in range(1, len(knots.columns) + 1)]
-        found = [name for name in columns if name in knots]
-        names = [one.get("name") if isinstance(one, dict) else None for one in told]
-        names += [None] * (len(found) - len(names))
-        return [(name or f"{called} {i}", column) for i, (name, column) in enumerate(zip(names, found), 1)]
+        """Names of storeys, or of points of a structure by its modes, with the column of a quantity of each."""
+        part = "point" if self._response.summary.get("points") else "storey"
+        _, names = self._response._core._places()
+        return [(name, f"{part}{i}_{quantity}") for i, name in enumerate(names, 1)]
 
     def loop(self, ax: Axes | None = None, *, along: str | None = None, **kwargs: Any) -> Axes:
         """Force of the whole slider over sliding displacement: the loop as data sheets draw it.
@@ -119,21 +169,21 @@ class Plotter:
         if along == "resultant":
             raise ValueError("along: expected one of x, y, both, found 'resultant': a loop has a direction")
         axes = self._along(along, "both")
-        for i, axis in enumerate(axes):
-            sliding = 1e3 * _of_axis(response.knots, "sliding_displacement_m", axis)
-            force = response.slider_force_y_n if axis == "y" else response.slider_force_n
+        moved = [_of_axis(response.knots, "sliding_displacement_m", axis) for axis in axes]
+        forces = [response.slider_force_y_n if axis == "y" else response.slider_force_n for axis in axes]
+        direction = axes[0] if len(axes) == 1 else ""
+        across, upwards = Axis.of("sliding", *moved, along=direction), Axis.of("slider_force", *forces, along=direction)
+        for axis, sliding, force, colour in zip(axes, moved, forces, distinct(len(axes))):
             friction = -_of_axis(response.knots, "friction_force_n", axis)
             # Without them the two are one, but for rounding.
             apart = np.abs(force - friction).max(initial=0.0) > 1e-9 * np.abs(force).max(initial=0.0)
             if apart and len(axes) == 1:
-                ax.plot(sliding, 1e-3 * friction, lw=0.6, color="0.6", label="friction alone")
-            label = _said(axis) if len(axes) > 1 else "slider"
-            said = label if apart or len(axes) > 1 else None
-            ax.plot(sliding, 1e-3 * force, **style(kwargs, lw=0.9, color=f"C{i}", label=said))
+                ax.plot(across.shown(sliding), upwards.shown(friction), **_line("friction_part", {}))
+            usual = {"label": _core.along(axis)} if len(axes) > 1 else {} if apart else {"label": None}
+            ax.plot(across.shown(sliding), upwards.shown(force), **_line("slider", kwargs, color=colour, **usual))
         if ax.get_legend_handles_labels()[0]:
             ax.legend(loc="best", frameon=False)
-        said = _said(axes[0], " ") if len(axes) == 1 else ""
-        ax.set(xlabel=f"sliding displacement{said} [mm]", ylabel=f"slider force{said} [kN]")
+        ax.set(xlabel=across.label, ylabel=upwards.label)
         return ax
 
     def orbit(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
@@ -148,88 +198,101 @@ class Plotter:
         knots = response.knots
         if "sliding_displacement_y_m" not in knots:
             raise ValueError("expected a response in two directions, found one in one")
-        x, y = (1e3 * knots[f"sliding_displacement{axis}_m"] for axis in ("", "_y"))
-        ax.plot(x, y, **style(kwargs, lw=0.9))
+        x, y = (knots[f"sliding_displacement{axis}_m"] for axis in ("", "_y"))
+        across, upwards = (Axis.of("sliding", x, y, along=along) for along in ("x", "y"))
+        ax.plot(across.shown(x), upwards.shown(y), **_line("main", kwargs))
         at = int(np.argmax(np.hypot(x, y)))
-        ax.plot(x[at], y[at], "o", ms=4, color="C3", label=f"peak {np.hypot(x[at], y[at]):.4g} mm")
+        peak = f"peak {across.shown(np.hypot(x[at], y[at])):.4g} {across.symbol}"
+        ax.plot(across.shown(x[at]), upwards.shown(y[at]), "o", ms=4, color=_lines()["limit"][1], label=peak)
         gap = response.model.value("slider.gap")
         if gap is not None:
-            around = np.linspace(0.0, 2.0 * np.pi, 181)
-            ax.plot(1e3 * gap * np.cos(around), 1e3 * gap * np.sin(around), "k--", lw=0.8, label="gap")
+            around = across.shown(gap) * np.exp(1j * np.linspace(0.0, 2.0 * np.pi, 181))
+            ax.plot(around.real, around.imag, **_line("gap", {}))
         ax.legend(loc="best", frameon=False)
-        ax.set(xlabel="sliding along x [mm]", ylabel="sliding along y [mm]", aspect="equal")
+        ax.set(xlabel=across.label, ylabel=upwards.label, aspect="equal")
         return ax
 
     def energy(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
         """What became of the energy put in, over time."""
         energy, ax = self._response.energy, axes_or_new(ax)
+        columns, labels, colours = zip(*_core.energies())
+        upwards = Axis.of("energy", *(energy[column] for column in (*columns, "input_j")))
+        areas = [upwards.shown(energy[column]) for column in columns]
         time = self._response.knots["time_s"]
-        parts = ["friction_j", "damping_j", "strain_j", "kinetic_j"]
-        labels = ["friction", "damping", "strain", "kinetic"]
-        ax.stackplot(time, *[1e-3 * energy[part] for part in parts], **{"labels": labels, "alpha": 0.7, **kwargs})
-        ax.plot(time, 1e-3 * energy["input_j"], "k", lw=0.8, label="input")
-        ax.legend(loc="upper left", frameon=False)
-        ax.set(xlabel="time [s]", ylabel="energy [kJ]")
-        ax.margins(x=0)
-        return ax
+        ax.stackplot(time, *areas, **{"labels": labels, "colors": colours, "edgecolor": "0.1", "lw": 0.3, **kwargs})
+        ax.plot(time, upwards.shown(energy["input_j"]), **_line("input", {}))
+        return _over_time(ax, upwards, "upper left")
 
     def drift(self, ax: Axes | None = None, *, along: str | None = None, **kwargs: Any) -> Axes:
-        """Drift of every storey over time, or displacement over the block of the points of a structure by its modes.
+        """Drift of every storey over time, of a point of a structure by its modes over the point before it.
 
         In two directions along x; ``along`` may be ``"x"``, ``"y"`` or ``"resultant"``.
         """
+        return self._of_points("drift", ax, along, **kwargs)
+
+    def displacement(self, ax: Axes | None = None, *, along: str | None = None, **kwargs: Any) -> Axes:
+        """Displacement over the block of every floor, or point of a structure by its modes, over time.
+
+        In two directions along x; ``along`` may be ``"x"``, ``"y"`` or ``"resultant"``.
+        """
+        return self._of_points("over_block", ax, along, **kwargs)
+
+    def _of_points(self, quantity: str, ax: Axes | None, along: str | None, **kwargs: Any) -> Axes:
         knots, ax = self._response.knots, axes_or_new(ax)
         (axis,) = self._along("x" if along == "both" else along, "x")
-        of_structure = bool(self._response.summary.get("points"))
-        below = {part: 0.0 * knots["time_s"] for part in ("x", "y")}
-        for number, (label, column) in enumerate(self._points("displacement_m"), 1):
-            parts = ("x", "y") if axis == "resultant" else (axis,)
-            moved = []
-            for part in parts:
-                floor = _of_axis(knots, column, part)
-                moved.append(floor - below[part or "x"])
-                if not of_structure:
-                    below[part or "x"] = floor
-            drift = moved[0] if len(moved) == 1 else np.hypot(*moved)
-            called = label if of_structure or not label.startswith("floor ") else f"storey {number}"
-            ax.plot(knots["time_s"], 1e3 * drift, **style(kwargs, lw=0.8, label=called))
-        if not ax.lines:
+        parts = ("x", "y") if axis == "resultant" else (axis,)
+        points = self._points("displacement_m")
+        if not points:
             raise ValueError("expected a model with storeys or points, found one without")
-        what = "displacement over the block" if of_structure else "drift"
-        return _over_time(ax, f"{what}{_said(axis, ' ')} [mm]")
+        moved = np.array([[_of_axis(knots, column, part) for part in parts] for _, column in points])
+        if quantity == "drift":
+            moved = np.diff(moved, axis=0, prepend=0.0)
+        sizes = np.hypot(moved[:, 0], moved[:, 1]) if len(parts) > 1 else moved[:, 0]
+        upwards = Axis.of(quantity, sizes, along=axis)
+        for (label, _), values, colour in zip(points, sizes, distinct(len(points))):
+            ax.plot(knots["time_s"], upwards.shown(values), **_line("main", kwargs, color=colour, label=label))
+        return _over_time(ax, upwards)
 
     def surfaces(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
         """Displacement of every surface in series over time, and of all together."""
         knots, ax = self._response.knots, axes_or_new(ax)
-        together = style(kwargs, color="0.7", lw=2, label="together")
-        ax.plot(knots["time_s"], 1e3 * knots["sliding_displacement_m"], **together)
-        for number, surface in enumerate(_numbered(knots, "surface"), 1):
-            ax.plot(knots["time_s"], 1e3 * surface, **style(kwargs, lw=0.8, label=f"surface {number}"))
-        return _over_time(ax, "displacement [mm]")
+        together, surfaces = knots["sliding_displacement_m"], _numbered(knots, "surface")
+        upwards = Axis.of("displacement", together, *surfaces)
+        ax.plot(knots["time_s"], upwards.shown(together), **_line("together", kwargs))
+        names = (f"surface {number}" for number in range(1, len(surfaces) + 1))
+        return self._numbered_lines(ax, upwards, names, surfaces, **kwargs)
 
     def contents(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
         """Displacement of what slides on the floors over time, each over its floor."""
-        knots, ax = self._response.knots, axes_or_new(ax)
-        for number, contents in enumerate(_numbered(knots, "contents"), 1):
-            ax.plot(knots["time_s"], 1e3 * contents, **style(kwargs, lw=0.8, label=f"contents {number}"))
-        return _over_time(ax, "displacement over the floor [mm]")
+        contents, ax = _numbered(self._response.knots, "contents"), axes_or_new(ax)
+        names = self._response._core._contents()
+        return self._numbered_lines(ax, Axis.of("over_floor", *contents), names, contents, **kwargs)
+
+    def _numbered_lines(
+        self, ax: Axes, upwards: Axis, names: Iterable[str], lines: list[NDArray[np.float64]], **kwargs: Any
+    ) -> Axes:
+        time = self._response.knots["time_s"]
+        for name, values, colour in zip(names, lines, distinct(len(lines))):
+            ax.plot(time, upwards.shown(values), **_line("main", kwargs, color=colour, label=name))
+        return _over_time(ax, upwards)
 
     def demand(self, ax: Axes | None = None, **kwargs: Any) -> Axes:
         """Friction force over time between its bounds: static dashed, kinetic dotted, sliding shaded.
 
-        The bounds are those of a level normal force; they are left out under vertical motion.
+        The bounds are those of a level normal force; they are left out under vertical motion and in two directions.
         """
         response, ax = self._response, axes_or_new(ax)
         knots = response.knots
         _shade(ax, knots)
         (axis,) = self._along(None, "x")
-        ax.plot(knots["time_s"], 1e-3 * knots["friction_force_n"], **style(kwargs, lw=0.8))
-        if not axis and response.motion.vertical_m_per_s2 is None:
-            fixed, kinetic = response._core._friction_limits()
-            for (positive, negative), dashes in [(fixed, "--"), (kinetic, ":")]:
-                for value in [-positive, negative]:
-                    ax.axhline(1e-3 * value, color="0.4", ls=dashes, lw=0.8)
-        return _over_time(ax, f"friction force{_said(axis, ' ')} [kN]")
+        force = knots["friction_force_n"]
+        level = not axis and response.motion.vertical_m_per_s2 is None
+        bounds = response._core._friction_bounds() if level else []
+        upwards = Axis.of("friction_force", force, [bound for bound, _ in bounds], along=axis)
+        ax.plot(knots["time_s"], upwards.shown(force), **_line("main", kwargs))
+        for bound, line in bounds:
+            ax.axhline(float(upwards.shown(bound)), **_of_line(line, {}))
+        return _over_time(ax, upwards)
 
     def floor_spectra(self, ax: Axes | None = None, *, along: str | None = None, **kwargs: Any) -> Axes:
         """Response spectra of table, block and floors, of ``run(..., floor_spectrum=True)``.
@@ -241,26 +304,29 @@ class Plotter:
         ValueError
             For a response without them.
         """
-        spectra, ax = self._response.summary.get("floor_spectrum"), axes_or_new(ax)
-        if spectra is None:
+        told, ax = self._response.summary.get("floor_spectrum"), axes_or_new(ax)
+        if told is None:
             raise ValueError("expected a response of run(..., floor_spectrum=True), found one without")
         if along is not None and along not in ("x", "y"):
             raise ValueError(f"along: expected one of x, y, found {along!r}")
         # In one direction what is along x is all there is.
         (axis,) = self._along(along or "x", "x")
-        said = ""
-        if axis:
-            said = " RotD100" if along is None else _said(axis, " ")
-            spectra = spectra if along is None else spectra[axis]
-        periods = self._response.summary["floor_spectrum"]["period_s"]
-        lines = [("table", spectra["table_acceleration_m_per_s2"]), ("block", spectra["block_acceleration_m_per_s2"])]
-        called = [label for label, _ in self._points("acceleration_m_per_s2")]
-        lines += list(zip(called, spectra["storeys_acceleration_m_per_s2"]))
-        for label, values in lines:
+        spectra = told if not axis or along is None else told[axis]
+        block, points = self._response._core._places()
+        lines: list[tuple[str, list[float], dict[str, Any]]] = [
+            ("ground", spectra["table_acceleration_m_per_s2"], {}),
+            ("block", spectra["block_acceleration_m_per_s2"], {"label": block}),
+        ]
+        colours = distinct(len(points) + 1)[1:]
+        for name, values, colour in zip(points, spectra["storeys_acceleration_m_per_s2"], colours):
+            lines.append(("main", values, {"label": name, "color": colour}))
+        upwards = Axis.of("spectral_acceleration", *(values for _, values, _ in lines))
+        for line, values, usual in lines:
             if values:
-                ax.plot(periods, np.asarray(values) / G, **style(kwargs, label=label))
+                ax.plot(told["period_s"], upwards.shown(values), **_line(line, kwargs, **usual))
         ax.set_xscale("log")
-        ax.set(xlabel="period [s]", ylabel=f"spectral acceleration{said} [g]")
+        in_direction = f", {_core.along(axis) if along else 'RotD100'}" if axis else ""
+        ax.set(xlabel=Axis.of("period").label, ylabel=upwards.label + in_direction)
         ax.legend(loc="best", frameon=False)
         return ax
 
@@ -327,11 +393,6 @@ def _of_axis(knots: Table, name: str, axis: str) -> NDArray[np.float64]:
     return y if axis == "y" else np.hypot(x, y)
 
 
-def _said(axis: str, before: str = "") -> str:
-    """An axis in words; nothing in one direction."""
-    return before + (axis if axis == "resultant" else f"along {axis}") if axis else ""
-
-
 def _numbered(knots: Table, part: str) -> list[NDArray[np.float64]]:
     """Displacements of storeys, surfaces or contents in their order."""
     found = [v for k, v in knots.items() if k.startswith(part) and k.endswith("_displacement_m")]
@@ -346,10 +407,10 @@ def _shade(ax: Axes, knots: Table) -> None:
     ax.fill_between(knots["time_s"], 0, 1, where=slides, transform=across, color="0.92", lw=0)
 
 
-def _over_time(ax: Axes, label: str) -> Axes:
-    ax.set(xlabel="time [s]", ylabel=label)
+def _over_time(ax: Axes, upwards: Axis, legend: Literal["best", "upper left"] = "best") -> Axes:
+    ax.set(xlabel=Axis.of("time").label, ylabel=upwards.label)
     if ax.get_legend_handles_labels()[0]:
-        ax.legend(loc="best", frameon=False)
+        ax.legend(loc=legend, frameon=False)
     ax.margins(x=0)
     return ax
 
@@ -357,24 +418,25 @@ def _over_time(ax: Axes, label: str) -> Axes:
 def draw_motion(motion: Motion, ax: Axes | None = None, **kwargs: Any) -> NDArray[np.object_] | Axes:
     """Acceleration of all components over time; velocity and displacement below it on a figure of its own."""
     parts = motion.components
-    drawn = [("acceleration [g]", "acceleration_m_per_s2", G)]
+    drawn = [("acceleration", "acceleration_m_per_s2")]
     if ax is None:
         import matplotlib.pyplot as plt
 
-        drawn += [("velocity [m/s]", "velocity_m_per_s", 1.0), ("displacement [mm]", "displacement_m", 1e-3)]
+        drawn += [("velocity", "velocity_m_per_s"), ("displacement", "displacement_m")]
         _, all_axes = plt.subplots(3, 1, figsize=(9, 6), layout="constrained", sharex=True)
         axes = list(all_axes)
     else:
         axes = [ax]
-    for at, (label, name, unit) in zip(axes, drawn):
-        for component, one in parts.items():
-            said = f"along {component}" if component != "vertical" else component
-            at.plot(one.time_s, getattr(one, name) / unit, **style(kwargs, lw=0.8, label=said))
-        at.set(ylabel=label)
+    for at, (quantity, name) in zip(axes, drawn):
+        upwards = Axis.of(quantity, *(getattr(one, name) for one in parts.values()))
+        for (component, one), colour in zip(parts.items(), distinct(len(parts))):
+            said = _core.along(component) if component in ("x", "y") else component
+            at.plot(one.time_s, upwards.shown(getattr(one, name)), **_line("main", kwargs, color=colour, label=said))
+        at.set(ylabel=upwards.label)
         at.margins(x=0)
     if len(parts) > 1:
         axes[0].legend(loc="best", frameon=False)
-    axes[-1].set(xlabel="time [s]")
+    axes[-1].set(xlabel=Axis.of("time").label)
     return axes[0] if ax is not None else np.array(axes, dtype=object)
 
 
@@ -389,23 +451,12 @@ def draw_tornado(
             of_key.setdefault(path, []).append(change)
     medians = {path: float(np.nanmedian(changes)) for path, changes in of_key.items() if np.isfinite(changes).any()}
     ranked = sorted(medians.items(), key=lambda one: abs(one[1]))[-most:]
-    paths, changes = [path for path, _ in ranked], [change for _, change in ranked]
-    colours = ["C0" if change >= 0.0 else "C1" for change in changes]
-    ax.barh(paths, changes, **{"color": colours, **kwargs})
+    names, changes = [_core.words_of_key(path) for path, _ in ranked], [change for _, change in ranked]
+    rises, falls = distinct(2)
+    ax.barh(names, changes, **{"color": [rises if change >= 0.0 else falls for change in changes], **kwargs})
     ax.axvline(0.0, color="k", lw=0.8)
-    ax.set(xlabel=f"{demand}: change in % for 1 % of the key")
+    ax.set(xlabel=_core.change(demand))
     return ax
-
-
-def _in_units(table: Table, name: str) -> tuple[NDArray[np.float64], str]:
-    """A column in the units of figures, and its label without them."""
-    unit = table.units.get(name, "")
-    shown, in_si = _SHOWN.get(unit, (unit, 1.0))
-    return np.asarray(table[name], dtype=float) / in_si, shown
-
-
-def _labelled(words: str, unit: str) -> str:
-    return f"{words} [{unit}]" if unit else words
 
 
 def _groups(table: Table, names: list[str]) -> list[tuple[str, NDArray[np.bool_]]]:
@@ -423,36 +474,41 @@ def draw_fragility(table: Table, summary: Mapping[str, Any], ax: Axes | None = N
     """The probability of exceedance over intensity, with its confidence band."""
     ax = axes_or_new(ax)
     names = [name for name in table if name not in ("level", "probability", "band_low", "band_high")]
-    level, unit = _in_units(table, "level")
-    for said, rows in _groups(table, names):
-        (line,) = ax.plot(level[rows], table["probability"][rows], **style(kwargs, label=said or "fitted"))
+    across = Axis.of_column(table, "level", str(summary.get("measure", "intensity")))
+    level, groups = across.shown(table["level"]), _groups(table, names)
+    for (said, rows), colour in zip(groups, distinct(len(groups))):
+        usual = {"color": colour, "label": said} if said else {}
+        (line,) = ax.plot(level[rows], table["probability"][rows], **_line("fitted", kwargs, **usual))
         low, high = table["band_low"][rows], table["band_high"][rows]
-        band = None if said else _band_of(summary)
+        band = None if said else _core.band(float(summary["confidence"]))
         ax.fill_between(level[rows], low, high, alpha=0.2, lw=0.0, color=line.get_color(), label=band)
-    ax.set(xlabel=_labelled(str(summary.get("measure", "intensity")), unit), ylabel="probability of exceedance")
+    ax.set(xlabel=across.label, ylabel=Axis.of("probability").label)
     ax.set_ylim(0.0, 1.0)
     ax.legend(loc="best", frameon=False)
     return ax
 
 
-def _band_of(summary: Mapping[str, Any]) -> str:
-    confidence = summary.get("confidence")
-    return f"{100.0 * confidence:.3g} % confidence" if isinstance(confidence, float) else "confidence band"
-
-
-def draw_front(table: Table, ax: Axes | None = None, **kwargs: Any) -> Axes:
-    """Designs that no other beats: acceleration over displacement; with bounds of friction those beside them."""
+def draw_front(table: Table, summary: Mapping[str, Any], ax: Axes | None = None, **kwargs: Any) -> Axes:
+    """Designs that no other beats: acceleration over displacement; with bounds of friction those beside them; the gap."""
     ax = axes_or_new(ax)
-    for suffix, words, marker in [
-        ("", "nominal friction", "o"), ("_lower_friction", "lower friction", "v"), ("_upper_friction", "upper friction", "^")
-    ]:
-        if f"displacement_m{suffix}" in table:
-            x, across = _in_units(table, f"displacement_m{suffix}")
-            y, up = _in_units(table, f"acceleration_m_per_s2{suffix}")
-            ax.plot(x, y, **style(kwargs, marker=marker, ls="-" if not suffix else "", label=words, ms=4, lw=0.8))
-            ax.set(xlabel=f"sliding displacement [{across}]", ylabel=f"floor acceleration [{up}]")
-    if len(ax.lines) > 1:
-        ax.legend(loc="best", frameon=False)
+    found = [
+        (line, table[f"displacement_m{suffix}"], table[f"acceleration_m_per_s2{suffix}"], marker)
+        for line, suffix, marker in [
+            ("front", "", "o"), ("lower_friction", "_lower_friction", "v"), ("upper_friction", "_upper_friction", "^")
+        ]
+        if f"displacement_m{suffix}" in table
+    ]
+    gap = float(summary["gap_m"])
+    largest = _largest([gap, *(x for _, x, _, _ in found)])
+    across = Axis(*_core.axis_of_share("displacement", summary["probability"], largest))
+    largest = _largest(y for _, _, y, _ in found)
+    upwards = Axis(*_core.axis_of_share("acceleration", summary["acceleration_share"], largest))
+    for line, x, y, marker in found:
+        usual = {} if line == "front" else {"ls": ""}
+        ax.plot(across.shown(x), upwards.shown(y), **_line(line, kwargs, marker=marker, ms=4, **usual))
+    ax.axvline(gap / across.in_si, **_line("gap", {}))
+    ax.set(xlabel=across.label, ylabel=upwards.label)
+    ax.legend(loc="best", frameon=False)
     return ax
 
 
@@ -468,13 +524,16 @@ def draw_fractiles(table: Table, demand: str | None, ax: Axes | None = None, **k
     x = along[-1]
     names = [name for name in varied if name != x and len(set(table[name])) > 1]
     groups = _groups(table, names)
-    colours = distinct(len(groups))
-    for i, (said, rows) in enumerate(groups):
-        for share, dashes in [("16", ":"), ("50", "-"), ("84", "--")]:
-            y, up = _in_units(table, f"{chosen}_p{share}")
-            label = f"{share} %" if not said else said if share == "50" else None
-            ax.plot(table[x][rows], y[rows], **style(kwargs, ls=dashes, color=colours[i], label=label))
-    ax.set(xlabel=_titled(table, x), ylabel=_labelled(_words(chosen), up))
+    shares = ("p16", "p50", "p84")
+    across = Axis.of_column(table, x)
+    largest = _largest(table[f"{chosen}_{share}"] for share in shares)
+    upwards = Axis(*_core.axis_of_words(chosen, table.units.get(f"{chosen}_p50", ""), largest))
+    for (said, rows), colour in zip(groups, distinct(len(groups))):
+        for share in shares:
+            y = upwards.shown(table[f"{chosen}_{share}"])[rows]
+            of_group = {"label": said if share == "p50" else None, "color": colour} if said else {}
+            ax.plot(across.shown(table[x])[rows], y, **_line(share, kwargs, **of_group))
+    ax.set(xlabel=across.label, ylabel=upwards.label)
     ax.legend(loc="best", frameon=False, title="dotted 16 %, dashed 84 %" if names else None)
     return ax
 
@@ -483,51 +542,42 @@ def draw_ida(table: Table, summary: Mapping[str, Any], ax: Axes | None = None, *
     """The intensity over the demand that it makes, a line a record and design, and the limit."""
     ax = axes_or_new(ax)
     demand = str(summary["demand"])
-    x, across = _in_units(table, demand)
-    y, up = _in_units(table, "level")
+    across = Axis.of_column(table, demand)
+    upwards = Axis.of_column(table, "level", str(summary.get("measure", "intensity")))
     names = [name for name in table if name in ("record", "friction") or name in _paths_of(table)]
-    for _, rows in _groups(table, names):
-        ax.plot(np.abs(x[rows]), y[rows], **style(kwargs, color="0.5", lw=0.8))
+    for i, (_, rows) in enumerate(_groups(table, names)):
+        usual = {"lw": 0.8} if i == 0 else {"lw": 0.8, "label": None}
+        x, y = across.shown(table[demand])[rows], upwards.shown(table["level"])[rows]
+        ax.plot(np.abs(x), y, **_line("record", kwargs, **usual))
     limit = summary.get("limit")
     if limit is not None:
-        ax.axvline(limit / _SHOWN.get(table.units.get(demand, ""), ("", 1.0))[1], color="C3", ls="--", label="limit")
-        ax.legend(loc="best", frameon=False)
-    ax.set(xlabel=_labelled(_words(demand), across), ylabel=_labelled(str(summary.get("measure", "intensity")), up))
+        ax.axvline(limit / across.in_si, **_line("limit", {}))
+    ax.legend(loc="best", frameon=False)
+    ax.set(xlabel=across.label, ylabel=upwards.label)
     return ax
 
 
 def draw_runs(table: Table, x: str, y: str, ax: Axes | None = None, **kwargs: Any) -> Axes:
     """A demand over what was varied, a point a run."""
     ax = axes_or_new(ax)
-    values, up = _in_units(table, y)
-    for said, rows in _groups(table, [name for name in ("model", "friction") if name in table and len(set(table[name])) > 1]):
-        ax.plot(np.asarray(table[x])[rows], values[rows], **style(kwargs, ls="", marker=".", label=said or None))
+    across, upwards = Axis.of_column(table, x), Axis.of_column(table, y)
+    of_names = isinstance(table[x][0], str)
+    places = np.asarray(table[x]) if of_names else across.shown(table[x])
+    groups = _groups(table, [name for name in ("model", "friction") if name in table and len(set(table[name])) > 1])
+    for (said, rows), colour in zip(groups, distinct(len(groups))):
+        usual = {"ls": "", "marker": ".", "color": colour, "label": said or None}
+        ax.plot(places[rows], upwards.shown(table[y])[rows], **_line("main", kwargs, **usual))
     if len(ax.lines) > 1:
         ax.legend(loc="best", frameon=False)
-    if isinstance(table[x][0], str):
+    if of_names:
         ax.tick_params(axis="x", rotation=90)
-    ax.set(xlabel=_titled(table, x), ylabel=_labelled(_words(y), up))
+    ax.set(xlabel=across.label, ylabel=upwards.label)
     return ax
 
 
-def _words(key: str) -> str:
-    """A key without its unit, in words."""
-    units = ("_m_per_s2", "_m_per_s", "_m", "_n", "_s", "_rad")
-    unit = next((unit for unit in units if key.endswith(unit)), "")
-    return key.removesuffix(unit).replace("_", " ")
-
-
-#: Tables of a model whose keys are varied
-_TABLES = ("block", "slider", "frame", "storey", "structure", "contents", "motion", "record", "records", "isolator")
-
-
 def _paths_of(table: Table) -> list[str]:
-    """Columns that are varied paths of a model."""
-    def is_path(name: str) -> bool:
-        first, dot, rest = name.partition(".")
-        return dot == "." and first in _TABLES and not rest.startswith(("peak_", "residual_", "max_", "min_"))
-
-    return [name for name in table if is_path(name)]
+    """Columns that are keys of the model."""
+    return [name for name in table if _core.is_key(name)]
 
 
 def varied(table: Table) -> str:
@@ -540,26 +590,19 @@ def varied(table: Table) -> str:
 def draw_table(table: Table, x: str, y: str, by: str | None = None, ax: Axes | None = None, **kwargs: Any) -> Axes:
     """One column over another: points, or lines where x rises for each value of a third."""
     ax = axes_or_new(ax)
+    across, upwards = Axis.of_column(table, x), Axis.of_column(table, y)
     groups = [None] if by is None else list(dict.fromkeys(table[by]))
     for group, colour in zip(groups, distinct(len(groups))):
         rows = [True] * len(table) if by is None else [value == group for value in table[by]]
-        one, other = (np.asarray(table[name])[rows] for name in (x, y))
-        rises = len(one) > 1 and bool((np.diff(np.asarray(one, dtype=float)) > 0.0).all())
+        one, other = (axis.shown(table[name])[rows] for axis, name in ((across, x), (upwards, y)))
+        rises = len(one) > 1 and bool((np.diff(one) > 0.0).all())
         kind = {"ls": "-"} if rises else {"ls": "", "marker": "."}
-        of_group = {} if by is None else {"label": str(group), "color": colour}
-        ax.plot(one, other, **style(kwargs, **kind, **of_group))
-    ax.set(xlabel=_titled(table, x), ylabel=_titled(table, y))
+        of_group = {"label": None if by is None else str(group), "color": colour}
+        ax.plot(one, other, **_line("main", kwargs, **kind, **of_group))
+    ax.set(xlabel=across.label, ylabel=upwards.label)
     if by is not None and len(groups) <= 12:
         ax.legend(loc="best", frameon=False, title=by)
     return ax
-
-
-def _titled(table: Table, name: str) -> str:
-    return f"{name} [{table.units[name]}]" if name in table.units else name
-
-
-#: Units of measured quantities as figures show them, with what one of them is in SI
-_SHOWN = {"m": ("mm", 1e-3), "m/s²": ("g", G), "N": ("kN", 1e3)}
 
 
 def draw_curve(name: str, curve: Table, ax: Axes | None = None, **kwargs: Any) -> Axes:
@@ -568,13 +611,16 @@ def draw_curve(name: str, curve: Table, ax: Axes | None = None, **kwargs: Any) -
     columns = curve.columns
     loop = "force_n" in columns
     x, first, second = columns[1:4] if loop else columns[:3]
-    unit, in_si = _SHOWN.get(curve.units.get(first, ""), (curve.units.get(first, ""), 1.0))
-    across = 1e3 * curve[x] if loop else curve[x]
-    ax.plot(across, curve[first] / in_si, **style(kwargs, color="0.7", lw=2.5, label="measured"))
-    computed = style(kwargs, color="C0", lw=0.9, label=second.removesuffix("_n"))
-    ax.plot(across, curve[second] / in_si, **computed)
-    quantity = "force" if loop else name.replace("_", " ")
-    ax.set(xlabel="displacement [mm]" if loop else "time [s]", ylabel=f"{quantity} [{unit}]")
+    across = Axis.of("displacement", curve[x]) if loop else Axis.of("time")
+    if loop:
+        upwards = Axis.of("force", curve[first])
+    else:
+        largest = _largest([curve[first], curve[second]])
+        upwards = Axis(*_core.axis_of_words(name, curve.units.get(first, ""), largest))
+    ax.plot(across.shown(curve[x]), upwards.shown(curve[first]), **_line("measured", kwargs))
+    computed = "fitted" if second.removesuffix("_n") == "fitted" else "predicted"
+    ax.plot(across.shown(curve[x]), upwards.shown(curve[second]), **_line(computed, kwargs))
+    ax.set(xlabel=across.label, ylabel=upwards.label)
     if loop:
         ax.set_title(name)
     ax.legend(loc="best", frameon=False)
@@ -602,13 +648,9 @@ def style(given: Mapping[str, Any], **usual: Any) -> dict[str, Any]:
     return {name: value for name, value in merged.items() if name != "label" or value is not None}
 
 
-def distinct(count: int) -> list[Any]:
+def distinct(count: int) -> list[str]:
     """Colours that differ, as many as there are lines."""
-    if count <= 10:
-        return [f"C{i}" for i in range(count)]
-    from matplotlib import colormaps
-
-    return [colormaps["turbo"](0.05 + 0.9 * i / (count - 1)) for i in range(count)]
+    return _core.colours(count)
 
 
 def axes_or_new(ax: Axes | None) -> Axes:

@@ -70,10 +70,13 @@ def texts(argument: str, given: object) -> list[str]:
 
 
 def several(value: Any) -> bool:
-    """Whether a value is a list of them: a sequence, an array, a series."""
-    if isinstance(value, (str, bytes, Mapping)):
+    """Whether a value is a list of them: a sequence, an array, a series or a column of any library."""
+    if isinstance(value, (str, bytes, Mapping, _core.Motion)):
         return False
-    return isinstance(value, Sequence) or getattr(value, "ndim", 0) > 0
+    if hasattr(value, "ndim"):
+        return bool(value.ndim > 0)
+    is_column = hasattr(value, "__len__") and (hasattr(value, "dtype") or hasattr(value, "to_pylist"))
+    return isinstance(value, Sequence) or is_column
 
 
 def joined(name: str, values: Any, unit: str = "", is_range: bool = False) -> str:

@@ -172,7 +172,7 @@ class Table:
     def plot(
         self, x: str | None = None, y: str | None = None, *, by: str | None = None, ax: Axes | None = None, **kwargs: Any
     ) -> Axes:
-        """Draw one column over another in Matplotlib.
+        """Draw one column over another in Matplotlib; demands and keys of the model go by their names and units in reports.
 
         Parameters
         ----------

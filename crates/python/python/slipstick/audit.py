@@ -93,7 +93,7 @@ class Regularisation:
             ax.plot(failed, [0.0] * len(failed), "kx", label="does not converge")
         ax.axhline(0.0, color="0.5", lw=0.8)
         ax.set_xscale("log")
-        ax.set(xlabel="k_init [kN/m]", ylabel="error over the exact peak [%]")
+        ax.set(xlabel="k_init (kN/m)", ylabel="Error over the exact peak (%)")
         ax.legend(frameon=False)
         return ax
 

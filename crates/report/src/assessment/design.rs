@@ -9,7 +9,7 @@ use slipstick::assessment::sensitivity::Index;
 use slipstick::notice::{Notice, NoticeKind};
 use slipstick::study::travel_used_up;
 
-use super::key::{path_words, title};
+use super::key::{path_label, path_words, title};
 use super::sheet::{Sheet, cell, counted_as, failed};
 use crate::display::{DisplayUnits, Quantity, Unit};
 use crate::json::{each, pretty};
@@ -446,6 +446,5 @@ fn name(variable: &Axis) -> String {
 
 /// The same with its unit: `kinetic friction`, `radius (m)`.
 fn label(variable: &Axis) -> String {
-    let name = name(variable);
-    if variable.unit.is_empty() { name } else { format!("{name} ({})", variable.unit) }
+    path_label(&variable.path, &variable.unit)
 }

@@ -14,12 +14,13 @@ use slipstick::study::{Demanded, travel_used_up};
 pub use family::IdaFamily;
 
 use super::key::{of_measure, quantity, title};
-use super::lines::{FRACTILES, RECORD, clipped, line, panel, share_names, single};
+use super::lines::{FRACTILES, clipped, line, panel, share_names, single};
 use super::sheet::{Sheet, cell, counted, counted_as, failed};
 use crate::display::{DisplayUnits, Unit};
 use crate::figures::Drawn;
 use crate::json::{each, pretty};
-use crate::plot::{Axis, PlotSeries, Style};
+use crate::legend::{LIMIT, ONE_RECORD};
+use crate::plot::{Axis, PlotSeries};
 use crate::view;
 
 /// What an incremental dynamic analysis is told from.
@@ -327,8 +328,8 @@ impl IdaReport<'_> {
         };
         let mut series: Vec<PlotSeries> = Vec::new();
         for (i, curve) in self.curves.iter().enumerate() {
-            let label = if i == 0 { "record" } else { "" };
-            series.push(line(label, RECORD, clipped(&of_curve(curve), ends)));
+            let label = if i == 0 { ONE_RECORD.label } else { "".into() };
+            series.push(line(label, ONE_RECORD.style, clipped(&of_curve(curve), ends)));
         }
         let by_demand = self.levels_by_demand();
         for (i, (style, name)) in FRACTILES.iter().zip(share_names()).enumerate() {
@@ -341,7 +342,7 @@ impl IdaReport<'_> {
         }
         if let Some(limit) = self.limit {
             let x = edp.of(limit);
-            series.push(line("limit", Style::LIMIT, vec![[x, 0.0], [x, y_end]]));
+            series.push(line(LIMIT.label, LIMIT.style, vec![[x, 0.0], [x, y_end]]));
         }
         let axes = [
             Axis::linear(edp.label(&title(self.demand)), 0.0, x_end),

@@ -32,6 +32,13 @@ pub fn path_words(path: &str) -> String {
     own.unwrap_or(path).replace(['.', '_'], " ")
 }
 
+/// A key of a model as it stands along an axis, with its unit: `kinetic friction`, `radius (m)`.
+#[must_use]
+pub fn path_label(path: &str, unit: &str) -> String {
+    let words = path_words(path);
+    if unit.is_empty() { words } else { format!("{words} ({unit})") }
+}
+
 /// The unit of an intensity measure given its SI unit: accelerations in g, as levels are written.
 #[must_use]
 pub fn of_measure(si_unit: &str, display: DisplayUnits, largest: f64) -> Unit {
@@ -59,6 +66,8 @@ mod tests {
         assert_eq!(path_words("storey.1.damping_ratio"), "storey 1 damping ratio");
         assert_eq!(path_words("motion.sine.frequency"), "sine frequency");
         assert_eq!(path_words("isolator.period"), "isolator period");
+        assert_eq!(path_label("slider.radius", "m"), "radius (m)");
+        assert_eq!(path_label("slider.kinetic_friction", ""), "kinetic friction");
     }
 
     #[test]

@@ -15,6 +15,14 @@ pub const GROUPS: [Style; 6] = [
     Style { colour: "#6b6b6b", width: 2.6, dashes: "4 3" },
 ];
 
+/// The style of a group by its place: after the first six their colours with the dashes and width of others, so that no
+/// two of 36 are drawn alike.
+pub fn group_style(place: usize) -> Style {
+    let count = GROUPS.len();
+    let Style { width, dashes, .. } = GROUPS[(place + place / count) % count];
+    Style { width, dashes, ..GROUPS[place % count] }
+}
+
 /// A single record of a suite.
 pub const RECORD: Style = Style { colour: "#767676", width: 0.5, dashes: "" };
 
@@ -123,4 +131,18 @@ pub fn laid(
 /// A panel without limits or notes.
 pub fn panel(x: Axis, y: Axis, height: f64, series: Vec<PlotSeries>) -> Panel {
     Panel { x, y, height, series, limits: Vec::new(), peak: None, note: String::new() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_two_of_36_groups_are_drawn_alike() {
+        let styles: Vec<Style> = (0..36).map(group_style).collect();
+        assert_eq!(styles[..6], GROUPS);
+        for (i, style) in styles.iter().enumerate() {
+            assert!(!styles[..i].contains(style), "{i}");
+        }
+    }
 }

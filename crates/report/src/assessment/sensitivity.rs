@@ -11,6 +11,7 @@ use super::sheet::{Sheet, cell, failed};
 use crate::display::DisplayUnits;
 use crate::figures::Drawn;
 use crate::json::{each, pretty};
+use crate::legend::change;
 use crate::number::{compact, significant};
 use crate::plot::{Axis, Figure, Layout, PlotSeries, Shape, Style};
 use crate::view;
@@ -261,7 +262,7 @@ impl SensitivityReport<'_> {
             }
         };
         let changes = ranked.iter().map(|(_, change, _)| *change);
-        let x = Axis::symmetric(format!("{what}: change in % for 1 % of the key"), changes);
+        let x = Axis::symmetric(change(&self.run.demands[demand].name()), changes);
         let count = ranked.len() as f64;
         let axis = Style { colour: "#1a1a1a", width: 0.8, dashes: "" };
         let zero = line("", axis, vec![[0.0, 0.5], [0.0, count + 0.5]]);

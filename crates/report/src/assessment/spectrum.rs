@@ -5,8 +5,8 @@ use slipstick::assessment::spectrum::{CurveOf, DemandCurves, SpectrumRun};
 use slipstick::notice::Notice;
 use slipstick::study::travel_used_up;
 
-use super::key::{path_words, quantity, title};
-use super::lines::{BAND, FRACTILES, GROUPS, RECORD, band, line, panel, share_names, stacked};
+use super::key::{path_label, path_words, quantity, title};
+use super::lines::{BAND, FRACTILES, RECORD, band, group_style, line, panel, share_names, stacked};
 use super::sheet::{Sheet, cell, counted_as, failed};
 use crate::display::{DisplayUnits, Unit};
 use crate::json::{each, pretty};
@@ -139,9 +139,7 @@ impl<'s> SpectrumReport<'s> {
     }
 
     fn axis_label(&self) -> String {
-        let unit =
-            if self.run.unit.is_empty() { String::new() } else { format!(" ({})", self.run.unit) };
-        format!("{}{unit}", path_words(&self.run.over))
+        path_label(&self.run.over, &self.run.unit)
     }
 
     /// One group: a table a demand with its fractiles, or of a single motion three demands a table.
@@ -242,7 +240,7 @@ impl<'s> SpectrumReport<'s> {
             }
         }
         for (group, name) in self.groups().iter().enumerate() {
-            let style = if many { GROUPS[group % GROUPS.len()] } else { FRACTILES[1] };
+            let style = if many { group_style(group) } else { FRACTILES[1] };
             if many && !single {
                 for which in [0, 2] {
                     let thin = Style { width: 0.6, ..style };

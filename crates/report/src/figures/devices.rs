@@ -9,6 +9,7 @@ use super::histories::{SHADING, history_panel, over_time};
 use super::{Drawn, Scene, Trace};
 use crate::assessment::lines::{dots, line, panel, single};
 use crate::display::Quantity;
+use crate::legend::{self, Along, DISPLACEMENT};
 use crate::markup::shortened;
 use crate::number::compact;
 use crate::plot::{Axis, Limit, Panel, Style};
@@ -78,7 +79,7 @@ pub fn surfaces(scene: &Scene) -> Option<Drawn> {
     let unit = report.display.unit(Quantity::Length, peak_m);
     let panel = |(i, surface): (usize, &Surface)| {
         let points = scene.over_time(unit, |knot| history.surface_displacements(knot)[i]);
-        let name = format!("Surface {} displacement", i + 1);
+        let name = DISPLACEMENT.name(&format!("Surface {}", i + 1), Along::One);
         let mut panel = history_panel(scene, &name, Trace::of(points), unit);
         // An end far away would flatten the curve.
         if let Some(travel_m) = surface.travel_m.filter(|travel_m| *travel_m <= 2.5 * peak_m) {
@@ -117,11 +118,8 @@ pub fn contents(scene: &Scene) -> Option<Drawn> {
     let unit = report.display.unit(Quantity::Length, largest);
     let panel = |(i, contents): (usize, &Contents)| {
         let points = scene.over_time(unit, |knot| history.contents_state(knot, i)[0]);
-        let floor = match contents.floor {
-            0 => names.block().to_owned(),
-            storey => names.storey(storey),
-        };
-        let name = format!("Contents {} on {}", i + 1, shortened(&floor, 24).to_lowercase());
+        let name =
+            shortened(&legend::contents(names, i + 1, contents.floor), 40).replacen('c', "C", 1);
         history_panel(scene, &name, Trace::of(points), unit)
     };
     let panels: Vec<Panel> = contents.iter().enumerate().map(panel).collect();

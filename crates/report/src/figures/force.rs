@@ -1,5 +1,8 @@
 //! Friction force against sliding displacement, and the demand against its bound.
 
+use std::borrow::Cow;
+
+use slipstick::model::Model;
 use slipstick::motion::GroundMotion;
 use slipstick::response::History;
 use slipstick::slider::Contact;
@@ -7,6 +10,10 @@ use slipstick::slider::Contact;
 use super::{Drawn, Scene};
 use crate::assessment::lines::{laid, line, over_x, panel};
 use crate::display::Quantity;
+use crate::legend::{
+    AxisQuantity, FRICTION_ALONE, FRICTION_FORCE, KINETIC_FRICTION, LegendEntry, MAIN, SLIDER,
+    SLIDER_FORCE, SLIDING, STATIC_BOUND,
+};
 use crate::number::printed;
 use crate::plot::{Axis, Figure, Layout, Limit, Panel, PlotSeries, Style};
 
@@ -36,39 +43,41 @@ pub fn loops(scene: &Scene) -> Drawn {
         }
         _ => 0.0,
     };
-    let panel = |label: &str, peak_n: f64, force: &dyn Fn(usize) -> f64, with_stop: bool| {
-        let unit = report.display.unit(Quantity::Force, peak_n);
-        let points: Vec<[f64; 2]> = (0..history.len())
-            .map(|knot| [length.of(history.sliding_displacement_m[knot]), unit.of(force(knot))])
-            .collect();
-        let forces = || points.iter().map(|point| point[1]);
-        let largest = |all: &mut dyn Iterator<Item = f64>| all.map(f64::abs).fold(0.0, f64::max);
-        let of_loop = |knot: usize| unit.of(force(knot) - stop_n(knot));
-        let of_loop = largest(&mut (0..history.len()).map(of_loop));
-        let most = largest(&mut forces());
-        let cut = with_stop && of_loop > 0.0 && most > ABOVE_THE_LOOP * of_loop;
-        let (upwards, note) = match cut {
-            true => (
-                Axis::symmetric(unit.label(label), [ABOVE_THE_LOOP * of_loop]),
-                format!("stop {} {}", printed(most, 3), unit.symbol),
-            ),
-            false => (Axis::symmetric(unit.label(label), forces()), String::new()),
+    let panel =
+        |label: AxisQuantity, peak_n: f64, force: &dyn Fn(usize) -> f64, with_stop: bool| {
+            let unit = report.display.unit(Quantity::Force, peak_n);
+            let points: Vec<[f64; 2]> = (0..history.len())
+                .map(|knot| [length.of(history.sliding_displacement_m[knot]), unit.of(force(knot))])
+                .collect();
+            let forces = || points.iter().map(|point| point[1]);
+            let largest =
+                |all: &mut dyn Iterator<Item = f64>| all.map(f64::abs).fold(0.0, f64::max);
+            let of_loop = |knot: usize| unit.of(force(knot) - stop_n(knot));
+            let of_loop = largest(&mut (0..history.len()).map(of_loop));
+            let most = largest(&mut forces());
+            let cut = with_stop && of_loop > 0.0 && most > ABOVE_THE_LOOP * of_loop;
+            let (upwards, note) = match cut {
+                true => (
+                    Axis::symmetric(label.alone(unit), [ABOVE_THE_LOOP * of_loop]),
+                    format!("stop {} {}", printed(most, 3), unit.symbol),
+                ),
+                false => (Axis::symmetric(label.alone(unit), forces()), String::new()),
+            };
+            let along = points.iter().map(|p| p[0]).chain([0.0]);
+            let along = Axis::covering(SLIDING.alone(length), along);
+            let stop = if with_stop { at_stop(history, &points) } else { Vec::new() };
+            let LegendEntry { label, style, .. } = if stop.is_empty() { MAIN } else { SLIDER };
+            let series = std::iter::once(line(label, style, points)).chain(stop).collect();
+            Panel { note, ..panel(along, upwards, 150.0, series) }
         };
-        let along = points.iter().map(|p| p[0]).chain([0.0]);
-        let along = Axis::covering(length.label("Sliding displacement s"), along);
-        let stop = if with_stop { at_stop(history, &points) } else { Vec::new() };
-        let label = if stop.is_empty() { "" } else { "slider" };
-        let series = std::iter::once(line(label, Style::MAIN, points)).chain(stop).collect();
-        Panel { note, ..panel(along, upwards, 150.0, series) }
-    };
     let mut panels = Vec::new();
     let mut caption = String::from("Force of the block on its slider");
     if restrained {
-        panels.push(panel("Slider force", demands.peak_slider_force_n, &whole, true));
-        panels.push(panel("Friction force alone", demands.peak_friction_force_n, &friction, false));
+        panels.push(panel(SLIDER_FORCE, demands.peak_slider_force_n, &whole, true));
+        panels.push(panel(FRICTION_ALONE, demands.peak_friction_force_n, &friction, false));
         caption.push_str(" (left; right: its friction alone)");
     } else {
-        panels.push(panel("Slider force", demands.peak_friction_force_n, &friction, false));
+        panels.push(panel(SLIDER_FORCE, demands.peak_friction_force_n, &friction, false));
     }
     caption.push_str(
         " over sliding displacement, with the sign of a data sheet: it rises with the displacement. \
@@ -106,6 +115,27 @@ fn at_stop(history: &History, points: &[[f64; 2]]) -> Vec<PlotSeries> {
     pieces
 }
 
+/// Lines between which the friction force lies, each a share of the normal force with its sign, the first of a kind
+/// with its name: none of surfaces in series, whose bounds move with their displacements, and of friction by speed the
+/// static ones alone.
+#[must_use]
+pub fn friction_bounds(model: &Model) -> Vec<(f64, LegendEntry)> {
+    let slider = model.slider();
+    let kinds = match (slider.series().is_some(), slider.rate().is_some()) {
+        (true, _) => 0,
+        (false, true) => 1,
+        (false, false) => 2,
+    };
+    [(model.static_friction(), STATIC_BOUND), (model.kinetic_friction(), KINETIC_FRICTION)]
+        .into_iter()
+        .take(kinds)
+        .flat_map(|([positive, negative], entry)| {
+            let unnamed = LegendEntry { label: Cow::Borrowed(""), ..entry.clone() };
+            [(negative, entry), (-positive, unnamed)]
+        })
+        .collect()
+}
+
 /// `T` over time between the static bounds −μ_s⁺N and μ_s⁻N, with the kinetic ones dotted; none for
 /// surfaces in series, whose bounds move with their displacements.
 pub fn demand(scene: &Scene) -> Option<Drawn> {
@@ -113,22 +143,14 @@ pub fn demand(scene: &Scene) -> Option<Drawn> {
     if model.slider().series().is_some() {
         return None;
     }
-    let [static_positive, static_negative] = model.static_friction();
-    let [kinetic_positive, kinetic_negative] = model.kinetic_friction();
     let normal_n = model.normal_n();
-    let largest = static_positive.max(static_negative) * normal_n;
+    let [positive, negative] = model.static_friction();
+    let largest = positive.max(negative) * normal_n;
     let unit = report
         .display
         .unit(Quantity::Force, largest.max(report.summary.demands.peak_friction_force_n));
     let by_speed = model.slider().rate().is_some();
-    let bounds = [
-        (static_negative, "static bound", Style::DASHED),
-        (-static_positive, "", Style::DASHED),
-        (kinetic_negative, "kinetic friction", Style::DOTTED),
-        (-kinetic_positive, "", Style::DOTTED),
-    ];
-    // Friction by speed has no level line.
-    let bounds = bounds.into_iter().take(if by_speed { 2 } else { 4 });
+    let bounds = friction_bounds(model);
     let force =
         over_x("T", Style::MAIN, scene.over_time(unit, |knot| history.friction_force_n[knot]));
     let mut series = vec![force];
@@ -139,13 +161,13 @@ pub fn demand(scene: &Scene) -> Option<Drawn> {
         let normal_n = |knot: usize| {
             model.total_mass_kg() * (model.normal_gravity_m_per_s2() + lift[knot]).max(0.0)
         };
-        for (coefficient, label, style) in bounds {
+        for (coefficient, LegendEntry { label, style, .. }) in bounds {
             let points = scene.over_time(unit, |knot| coefficient * normal_n(knot));
             values.extend(points.iter().map(|point| point[1]));
             series.push(over_x(label, style, points));
         }
     } else {
-        for (coefficient, label, style) in bounds {
+        for (coefficient, LegendEntry { label, style, .. }) in bounds {
             let value = unit.of(coefficient * normal_n);
             values.push(value);
             // A legend entry without points: the line itself is drawn from edge to edge.
@@ -155,7 +177,7 @@ pub fn demand(scene: &Scene) -> Option<Drawn> {
             limits.push(Limit { value, label: String::new(), style });
         }
     }
-    let upwards = Axis::symmetric(unit.label("Friction force T"), values);
+    let upwards = Axis::symmetric(FRICTION_FORCE.alone(unit), values);
     let panel = Panel { limits, ..panel(scene.time_axis(), upwards, 190.0, series) };
     let varies = if report.motion.vertical_m_per_s2().is_some() {
         " The bounds follow the normal force N(t) of the vertical motion."

@@ -6,6 +6,9 @@ use super::trace::Trace;
 use super::{Drawn, Scene, drifts_title, shown_note, shown_storeys};
 use crate::assessment::lines::{over_x, panel};
 use crate::display::{Quantity, Unit};
+use crate::legend::{
+    ACCELERATION, Along, DRIFT, GAP, LOWER_FRICTION, LegendEntry, SLIDING, UPPER_FRICTION,
+};
 use crate::markup::shortened;
 use crate::number::{compact, printed};
 use crate::plot::{Axis, Figure, Layout, Limit, Panel, PlotSeries, Style};
@@ -38,13 +41,13 @@ pub fn sliding_displacement(scene: &Scene) -> Drawn {
     let (peak, note) = marked(&nominal, unit, "peak");
     series.push(over_x(label, Style::MAIN, nominal.points));
     let limits = gap.map_or_else(Vec::new, |gap| {
-        let line = |value: f64, label| Limit { value, label, style: Style::LIMIT };
-        let label = format!("gap ±{} {}", compact(gap), unit.symbol);
+        let line = |value: f64, label| Limit { value, label, style: GAP.style };
+        let label = format!("{} ±{} {}", GAP.label, compact(gap), unit.symbol);
         vec![line(gap, label), line(-gap, String::new())]
     });
     let panel = Panel {
         x: scene.time_axis(),
-        y: Axis::covering(unit.label("Sliding displacement s"), values),
+        y: Axis::covering(SLIDING.alone(unit), values),
         height: 140.0,
         series,
         limits,
@@ -86,11 +89,11 @@ fn sliding_trace(scene: &Scene, unit: Unit) -> Trace {
 
 fn bound_series(scene: &Scene, unit: Unit) -> Vec<PlotSeries> {
     let Some(responses) = scene.report.bounds else { return Vec::new() };
-    let named = [("lower friction", Style::WIDE), ("upper friction", Style::DASHED)];
+    let named = [LOWER_FRICTION, UPPER_FRICTION];
     named
         .into_iter()
         .zip(responses)
-        .filter_map(|((label, style), response)| {
+        .filter_map(|(LegendEntry { label, style, .. }, response)| {
             let history = response.history.as_ref()?;
             let points = history.time_s.iter().zip(&history.sliding_displacement_m);
             let points = points.map(|(&time_s, &s)| [time_s, unit.of(s)]).collect();
@@ -110,10 +113,10 @@ pub fn accelerations(scene: &Scene) -> Drawn {
     let table = scene.over_time(unit, |knot| history.table_acceleration_m_per_s2[knot]);
     let block = scene.over_time(unit, |knot| history.block_acceleration_m_per_s2[knot]);
     let names = &report.summary.names;
-    let acceleration = |name: &str| format!("{} acceleration", shortened(name, 24));
+    let acceleration = |name: &str| ACCELERATION.name(&shortened(name, 24), Along::One);
     let block_peak = unit.of(demands.peak_block_acceleration_m_per_s2);
     let mut panels = vec![
-        history_panel(scene, "Ground acceleration", Trace::of(table), unit),
+        history_panel(scene, &acceleration("Ground"), Trace::of(table), unit),
         history_panel(
             scene,
             &acceleration(names.block()),
@@ -168,7 +171,7 @@ pub fn drifts(scene: &Scene) -> Option<Drawn> {
             let trace = Trace::with_peak(drift, unit.of(peaks[i]));
             history_panel(
                 scene,
-                &format!("{} drift", shortened(&report.summary.names.point(i + 1), 24)),
+                &DRIFT.name(&shortened(&report.summary.names.point(i + 1), 24), Along::One),
                 trace,
                 unit,
             )

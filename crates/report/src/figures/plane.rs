@@ -10,11 +10,13 @@ use super::trace::Trace;
 use super::{Drawn, Scene, drifts_title, shown_note, shown_storeys};
 use crate::assessment::lines::{laid, line, panel};
 use crate::display::{Quantity, Unit};
+use crate::legend::{
+    ACCELERATION, Along, AxisQuantity, DRIFT, FRICTION_FORCE, GAP, KINETIC_FRICTION, SLIDING,
+    STATIC_BOUND,
+};
 use crate::markup::shortened;
 use crate::number::{compact, printed};
 use crate::plot::{Axis, Layout, Limit, Panel, PlotSeries, Shape, Style};
-
-const AXES: [&str; 2] = ["x", "y"];
 
 /// A quantity at the knots along x and along y.
 type Vector<'a> = [&'a [f64]; 2];
@@ -41,16 +43,15 @@ fn sliding_displacement(scene: &Scene, s: Vector) -> Drawn {
         .unit(Quantity::Length, end.map_or(peak_m, |(_, radius_m)| radius_m.max(peak_m)));
     let norm = Trace::with_peak(scene.over_time(unit, |knot| norm(s, knot)), unit.of(peak_m));
     let largest = end.map_or(0.0, |(_, radius_m)| unit.of(radius_m));
-    let y = Axis::from_zero(unit.label("Sliding displacement |s|"), norm.values().chain([largest]));
+    let y =
+        Axis::from_zero(SLIDING.label("", Along::Resultant, unit), norm.values().chain([largest]));
     let mut resultant = Panel { y, ..history_panel(scene, "", norm, unit) };
     resultant.limits.extend(end.map(|(name, radius_m)| {
         let label = format!("{name} {} {}", compact(unit.of(radius_m)), unit.symbol);
-        Limit { value: unit.of(radius_m), label, style: Style::LIMIT }
+        Limit { value: unit.of(radius_m), label, style: GAP.style }
     }));
     let mut panels = vec![resultant];
-    panels.extend(by_axis(scene, "Sliding displacement s", unit, s, |axis| {
-        axis.peak_sliding_displacement_m
-    }));
+    panels.extend(by_axis(scene, (SLIDING, ""), unit, s, |axis| axis.peak_sliding_displacement_m));
     let caption = format!(
         "Sliding displacement of the block relative to the ground: its size, along x and along y. \
          {SHADING}{}",
@@ -79,14 +80,14 @@ fn orbits(scene: &Scene, s: Vector, friction: Vector) -> Drawn {
         [model.static_friction(), model.kinetic_friction()].map(|[mu, _]| mu * model.normal_n());
     let length = report.display.unit(Quantity::Length, demands.peak_sliding_displacement_m);
     let force = report.display.unit(Quantity::Force, demands.peak_friction_force_n);
-    let circle = end.map(|(name, radius_m)| (name, Style::LIMIT, length.of(radius_m)));
-    let mut bounds = vec![("static friction μₛ N", Style::DASHED, force.of(static_n))];
+    let circle = end.map(|(name, radius_m)| (name, GAP.style, length.of(radius_m)));
+    let mut bounds = vec![("static friction μₛ N", STATIC_BOUND.style, force.of(static_n))];
     if kinetic_n != static_n {
-        bounds.push(("kinetic friction μₖ N", Style::DOTTED, force.of(kinetic_n)));
+        bounds.push(("kinetic friction μₖ N", KINETIC_FRICTION.style, force.of(kinetic_n)));
     }
     let panels = vec![
-        orbit("Sliding displacement s", length, s, &Vec::from_iter(circle)),
-        orbit("Friction force T", force, friction, &bounds),
+        orbit(SLIDING, length, s, &Vec::from_iter(circle)),
+        orbit(FRICTION_FORCE, force, friction, &bounds),
     ];
     let varies = if report.motion.vertical_m_per_s2().is_some() {
         " The circles are those of the weight; the vertical motion changes the normal force."
@@ -108,14 +109,12 @@ fn orbits(scene: &Scene, s: Vector, friction: Vector) -> Drawn {
 }
 
 /// The orbit of a vector, with circles around it.
-fn orbit(label: &str, unit: Unit, vector: Vector, circles: &[(&str, Style, f64)]) -> Panel {
+fn orbit(of: AxisQuantity, unit: Unit, vector: Vector, circles: &[(&str, Style, f64)]) -> Panel {
     let [x, y] = vector;
     let points: Vec<[f64; 2]> = x.iter().zip(y).map(|(x, y)| [unit.of(*x), unit.of(*y)]).collect();
     let radii = circles.iter().map(|(.., radius)| *radius);
     let largest: Vec<f64> = points.iter().flatten().copied().chain(radii).collect();
-    let axis = |name: &str| {
-        Axis::symmetric(unit.label(&format!("{label} along {name}")), largest.iter().copied())
-    };
+    let axis = |along| Axis::symmetric(of.label("", along, unit), largest.iter().copied());
     let circle = |(label, style, radius): &(&str, Style, f64)| {
         line(
             *label,
@@ -131,7 +130,7 @@ fn orbit(label: &str, unit: Unit, vector: Vector, circles: &[(&str, Style, f64)]
     let mut series: Vec<PlotSeries> = circles.iter().map(circle).collect();
     let (style, shape) = (Style::MAIN, Shape::Curve);
     series.push(PlotSeries { label: String::new(), style, shape, points });
-    panel(axis("x"), axis("y"), 0.0, series)
+    panel(axis(Along::X), axis(Along::Y), 0.0, series)
 }
 
 /// Total accelerations of ground, block and floors along x and along y.
@@ -139,19 +138,18 @@ fn accelerations(scene: &Scene, y: &HistoryAlongY) -> Drawn {
     let (report, x) = (scene.report, scene.history);
     let names = &report.summary.names;
     let unit = report.display.unit(Quantity::Acceleration, report.summary.record.pga_m_per_s2);
-    let of = |name: &str| format!("{} acceleration", shortened(name, 24));
     let ground = [&x.table_acceleration_m_per_s2[..], &y.table_acceleration_m_per_s2];
     let block = [&x.block_acceleration_m_per_s2[..], &y.block_acceleration_m_per_s2];
-    let mut panels = by_axis(scene, "Ground acceleration", unit, ground, |_| 0.0);
+    let mut panels = by_axis(scene, (ACCELERATION, "Ground"), unit, ground, |_| 0.0);
     let block_peak = |axis: &Demands| axis.peak_block_acceleration_m_per_s2;
-    panels.extend(by_axis(scene, &of(names.block()), unit, block, block_peak));
+    panels.extend(by_axis(scene, (ACCELERATION, names.block()), unit, block, block_peak));
     let peaks: Vec<f64> = storey_peaks(scene, |storey| storey.peak_acceleration_m_per_s2);
     let shown = shown_storeys(&peaks);
     for &i in &shown {
         let floor = over_knots(x, |knot| y.point_acceleration(x, knot, i));
-        let name = of(&names.point(i + 1));
+        let name = names.point(i + 1);
         let vector = [&floor[0][..], &floor[1]];
-        panels.extend(by_axis(scene, &name, unit, vector, |axis| {
+        panels.extend(by_axis(scene, (ACCELERATION, &name), unit, vector, |axis| {
             of_points(axis)[i].peak_acceleration_m_per_s2
         }));
     }
@@ -179,8 +177,8 @@ fn drifts(scene: &Scene, y: &HistoryAlongY) -> Option<Drawn> {
             let below = i.checked_sub(1).map_or([0.0; 2], |i| y.point_displacement(x, knot, i));
             [own[0] - below[0], own[1] - below[1]]
         });
-        let name = format!("{} drift", shortened(&report.summary.names.point(i + 1), 24));
-        panels.extend(by_axis(scene, &name, unit, [&drift[0], &drift[1]], |axis| {
+        let name = report.summary.names.point(i + 1);
+        panels.extend(by_axis(scene, (DRIFT, &name), unit, [&drift[0], &drift[1]], |axis| {
             of_points(axis)[i].peak_drift_m
         }));
     }
@@ -214,21 +212,23 @@ fn norm([x, y]: Vector, knot: usize) -> f64 {
     libm::hypot(x[knot], y[knot])
 }
 
-/// A panel an axis, whose peaks are those of the demands by axis.
+/// A panel an axis of a quantity of something, whose peaks are those of the demands by axis.
 fn by_axis(
     scene: &Scene,
-    quantity: &str,
+    (quantity, of): (AxisQuantity, &str),
     unit: Unit,
     vector: Vector,
     peak: impl Fn(&Demands) -> f64,
 ) -> Vec<Panel> {
     let demands = scene.report.summary.by_axis.as_ref();
-    (0..2)
-        .map(|axis| {
+    Along::AXES
+        .into_iter()
+        .enumerate()
+        .map(|(axis, along)| {
             let points = scene.over_time(unit, |knot| vector[axis][knot]);
             let peak = demands.map_or(0.0, |demands| peak(&demands.demands[axis]));
             let trace = Trace::with_peak(points, unit.of(peak));
-            history_panel(scene, &format!("{quantity} along {}", AXES[axis]), trace, unit)
+            history_panel(scene, &quantity.name(&shortened(of, 24), along), trace, unit)
         })
         .collect()
 }

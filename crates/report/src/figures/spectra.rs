@@ -2,8 +2,9 @@
 
 use super::{Drawn, shown_note, shown_storeys};
 use crate::assessment::lines::{over_x, panel, stacked};
-use crate::display::Quantity;
+use crate::display::{Quantity, Unit};
 use crate::floors::{DIRECTIONS, largest};
+use crate::legend::{self, BLOCK, GROUND, PERIOD, SPECTRAL_ACCELERATION};
 use crate::markup::shortened;
 use crate::number::compact;
 use crate::plot::{Axis, Panel, PlotSeries, Style};
@@ -38,21 +39,21 @@ pub fn floors(report: &Report, spectra: &FloorSpectra) -> Option<Drawn> {
         )
     };
     let series = |sa: &PlaceSpectra| {
-        let storeys = shown.iter().zip(storey_styles).map(|(&i, style)| {
-            line(names.point(i + 1).to_lowercase(), style, &sa.storeys_m_per_s2[i])
-        });
+        let storeys = shown
+            .iter()
+            .zip(storey_styles)
+            .map(|(&i, style)| line(legend::point(names, i + 1), style, &sa.storeys_m_per_s2[i]));
         let mut series: Vec<PlotSeries> = storeys.collect();
         if !sa.table_m_per_s2.is_empty() {
-            series.push(line("ground".to_owned(), Style::DOTTED, &sa.table_m_per_s2));
+            series.push(line(GROUND.label.into(), GROUND.style, &sa.table_m_per_s2));
         }
-        let block = Style { width: 1.3, ..Style::MAIN };
-        series.push(line(names.block().to_lowercase(), block, &sa.block_m_per_s2));
+        series.push(line(legend::block(names), BLOCK.style, &sa.block_m_per_s2));
         series
     };
     let drawn: Vec<Vec<PlotSeries>> = spectra.in_directions().map(series).collect();
     let points = drawn.iter().flatten().flat_map(|series| &series.points);
     let values: Vec<f64> = points.map(|point| point[1]).collect();
-    let y = Axis::from_zero(unit.label("Spectral acceleration"), values);
+    let y = Axis::from_zero(SPECTRAL_ACCELERATION.alone(unit), values);
     let in_plane = spectra.axes.is_some();
     let panels =
         drawn.into_iter().zip(DIRECTIONS).enumerate().map(|(i, (mut series, direction))| {
@@ -63,7 +64,7 @@ pub fn floors(report: &Report, spectra: &FloorSpectra) -> Option<Drawn> {
                 if in_plane { format!("{}, {direction}", y.label) } else { y.label.clone() };
             let y = Axis { label, ..y.clone() };
             let height = if in_plane { 150.0 } else { 230.0 };
-            panel(Axis::logarithmic("Period (s)", first, last), y, height, series)
+            panel(Axis::logarithmic(PERIOD.alone(Unit::SECOND), first, last), y, height, series)
         });
     let panels: Vec<Panel> = panels.collect();
     let place = if names.points.is_empty() { "floor" } else { "point of the structure" };

@@ -8,12 +8,14 @@ use slipstick::response::{Method, Mode};
 use slipstick::units::Dimension;
 
 use super::text::in_groups;
+use crate::assessment::key;
 use crate::assessment::lines::{over_x, panel};
 use crate::assessment::sheet::{Sheet, SheetTable};
 use crate::describe::model_rows;
 use crate::display::{DisplayUnits, Quantity, Unit};
 use crate::figures::Drawn;
 use crate::json::{Members, each, pretty};
+use crate::legend::{MEASURED, PREDICTED, TIME};
 use crate::number::{significant, typeset};
 use crate::plot::{Axis, Figure, Layout, Panel, Style};
 use crate::summary::method_name;
@@ -56,9 +58,7 @@ pub(super) fn quantity(channel: Channel) -> Quantity {
 
 /// `Sliding displacement`, `Storey 1 acceleration`.
 pub(super) fn title(channel: Channel) -> String {
-    let name = channel.name().replace('_', " ").replace("storey", "storey ");
-    let mut letters = name.chars();
-    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+    key::title(&channel.name())
 }
 
 impl CompareReport<'_> {
@@ -319,14 +319,18 @@ impl CompareReport<'_> {
             let table = points(motion.times_s(), motion.horizontal_m_per_s2());
             series.push(over_x("table", TABLE, table));
         }
-        series.push(over_x("measured", Style::WIDE, points(&pair.times_s, &pair.measured)));
-        series.push(over_x("predicted", Style::MAIN, points(&pair.times_s, &pair.predicted)));
+        series.push(over_x(MEASURED.label, MEASURED.style, points(&pair.times_s, &pair.measured)));
+        series.push(over_x(
+            PREDICTED.label,
+            PREDICTED.style,
+            points(&pair.times_s, &pair.predicted),
+        ));
         let values: Vec<f64> = series.iter().flat_map(|s| s.points.iter().map(|p| p[1])).collect();
         let note = compared
             .metrics
             .peak_ratio
             .map_or(String::new(), |ratio| format!("peak ratio {}", significant(ratio, 3)));
-        let along = Axis::linear("Time (s)", 0.0, motion.duration_s());
+        let along = Axis::linear(TIME.alone(Unit::SECOND), 0.0, motion.duration_s());
         let upwards = Axis::covering(unit.label(&title(pair.channel)), values);
         Panel { note, ..panel(along, upwards, 120.0, series) }
     }

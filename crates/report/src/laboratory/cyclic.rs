@@ -11,6 +11,7 @@ use crate::assessment::lines::{BAND, band, dots, laid, line, panel, single};
 use crate::display::{DisplayUnits, Quantity};
 use crate::figures::Drawn;
 use crate::json::{Members, each};
+use crate::legend::{DISPLACEMENT, FORCE, MEASURED};
 use crate::number::significant;
 use crate::plot::{Axis, Layout, Limit, Panel, PlotSeries, Style};
 use crate::view;
@@ -359,7 +360,8 @@ fn figure(test: &Test, id: &str, display: DisplayUnits) -> Drawn {
     let point = |i: usize, force: f64| [x.of(test.displacement_m[i]), y.of(force)];
     let measured: Vec<[f64; 2]> =
         test.force_n.iter().enumerate().map(|(i, force)| point(i, *force)).collect();
-    let mut series = vec![line("measured", Style { width: 1.4, ..Style::WIDE }, measured.clone())];
+    let mut series =
+        vec![line(MEASURED.label, Style { width: 1.4, ..MEASURED.style }, measured.clone())];
     let mut stroke: Vec<[f64; 2]> = Vec::new();
     let mut strokes = 0;
     let mut close = |stroke: &mut Vec<[f64; 2]>| {
@@ -380,8 +382,8 @@ fn figure(test: &Test, id: &str, display: DisplayUnits) -> Drawn {
     }
     close(&mut stroke);
     let loops = panel(
-        Axis::covering(x.label("Displacement"), measured.iter().map(|p| p[0])),
-        Axis::covering(y.label("Force"), measured.iter().map(|p| p[1])),
+        Axis::covering(DISPLACEMENT.alone(x), measured.iter().map(|p| p[0])),
+        Axis::covering(FORCE.alone(y), measured.iter().map(|p| p[1])),
         230.0,
         series,
     );

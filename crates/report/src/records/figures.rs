@@ -7,6 +7,7 @@ use slipstick::units::STANDARD_GRAVITY_M_PER_S2;
 use crate::assessment::lines::{over_x, panel, single};
 use crate::display::{DisplayUnits, Quantity as Shown, Unit};
 use crate::figures::{Drawn, Trace, marked};
+use crate::legend::{ACCELERATION, AxisQuantity, DISPLACEMENT, PERIOD, TIME, VELOCITY};
 use crate::number::{compact, printed};
 use crate::plot::{Axis, Figure, Layout, Panel, PlotSeries, Style};
 
@@ -45,24 +46,19 @@ impl Histories<'_> {
     pub fn drawn(self) -> Drawn {
         let figures = self.motion.figures();
         let series = self.motion.series();
-        let panel = |name: &str, quantity: Quantity, shown: Shown, peak: f64| {
+        let panel = |name: AxisQuantity, quantity: Quantity, peak: f64| {
             // From acceleration to what is drawn nothing can fail but numbers out of range.
             let values = Step::To { quantity }.apply(&series);
             let values = values.map_or_else(|_| Vec::new(), |series| series.values().to_vec());
-            let unit = self.display.unit(shown, peak);
+            let unit = self.display.unit(name.quantity, peak);
             let times = self.motion.times_s().iter();
             let points = times.zip(&values).map(|(t, v)| [*t, unit.of(*v)]).collect();
             self.panel(name, Trace::with_peak(points, unit.of(peak)), unit)
         };
         let panels = vec![
-            panel(
-                "Acceleration",
-                Quantity::Acceleration,
-                Shown::Acceleration,
-                figures.pga_m_per_s2,
-            ),
-            panel("Velocity", Quantity::Velocity, Shown::Velocity, figures.pgv_m_per_s),
-            panel("Displacement", Quantity::Displacement, Shown::Length, figures.pgd_m),
+            panel(ACCELERATION, Quantity::Acceleration, figures.pga_m_per_s2),
+            panel(VELOCITY, Quantity::Velocity, figures.pgv_m_per_s),
+            panel(DISPLACEMENT, Quantity::Displacement, figures.pgd_m),
             self.husid(),
         ];
         let caption =
@@ -82,10 +78,10 @@ impl Histories<'_> {
         Drawn::new(figure, caption)
     }
 
-    fn panel(&self, quantity: &str, trace: Trace, unit: Unit) -> Panel {
+    fn panel(&self, quantity: AxisQuantity, trace: Trace, unit: Unit) -> Panel {
         let (peak, note) = marked(&trace, unit, "peak");
-        let along = Axis::linear("Time (s)", 0.0, self.motion.duration_s());
-        let upwards = Axis::symmetric(unit.label(quantity), trace.values());
+        let along = Axis::linear(TIME.alone(Unit::SECOND), 0.0, self.motion.duration_s());
+        let upwards = Axis::symmetric(quantity.alone(unit), trace.values());
         let series = vec![over_x("", Style::MAIN, trace.points)];
         Panel { peak, note, ..panel(along, upwards, HISTORY_HEIGHT, series) }
     }
@@ -97,7 +93,7 @@ impl Histories<'_> {
         let style = Style { width: 0.8, ..Style::DOTTED };
         let limit =
             |percent: f64| crate::plot::Limit { value: percent, label: String::new(), style };
-        let along = Axis::linear("Time (s)", 0.0, self.motion.duration_s());
+        let along = Axis::linear(TIME.alone(Unit::SECOND), 0.0, self.motion.duration_s());
         let share = Axis::linear("Share of the Arias intensity (%)", 0.0, 100.0);
         let series = vec![over_x("", Style::MAIN, husid.points)];
         Panel {
@@ -181,7 +177,7 @@ fn spectra(spectrum: &Spectrum, display: DisplayUnits, id: &'static str) -> Opti
         )
     };
     let panel = panel(
-        Axis::logarithmic("Period (s)", first, last),
+        Axis::logarithmic(PERIOD.alone(Unit::SECOND), first, last),
         Axis::from_zero(unit.label(name), values),
         SPECTRUM_HEIGHT,
         series,

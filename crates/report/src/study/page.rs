@@ -6,7 +6,7 @@ use slipstick::response::DemandColumn;
 use slipstick::study::{Certified, LevelSummary, Study, StudySummary};
 
 use super::{level, level_number, level_unit, said};
-use crate::assessment::lines::{BAND, FRACTILES, GROUPS, band, line, panel, stacked};
+use crate::assessment::lines::{BAND, FRACTILES, band, group_style, line, panel, stacked};
 use crate::assessment::pairs;
 use crate::assessment::sheet::{Sheet, SheetTable, cell};
 use crate::display::{DisplayUnits, Unit};
@@ -249,7 +249,7 @@ impl StudyReport<'_> {
             if !many {
                 series.push(band(&x, &low, &high, "16 to 84 %", BAND));
             }
-            let style = if many { GROUPS[i % GROUPS.len()] } else { FRACTILES[1] };
+            let style = if many { group_style(i) } else { FRACTILES[1] };
             let label = bound.map_or("median".to_owned(), |bound| format!("{bound} friction"));
             if many {
                 let thin = Style { width: 0.6, ..style };
@@ -280,7 +280,7 @@ impl StudyReport<'_> {
                 let known = row.distribution.iter().filter(|[_, value]| value.is_finite());
                 let points = known.map(|[p, value]| [unit.of(*value), 100.0 * p]).collect();
                 let label = bound.map_or(String::new(), |bound| format!("{bound} friction"));
-                series.push(line(label, GROUPS[i % GROUPS.len()], points));
+                series.push(line(label, group_style(i), points));
             }
         }
         let all: Vec<f64> = series.iter().flat_map(|s| s.points.iter().map(|p| p[0])).collect();

@@ -7,6 +7,7 @@ use super::{DesignReport, label};
 use crate::assessment::lines::{dots, line, panel, single, stacked};
 use crate::display::Unit;
 use crate::figures::Drawn;
+use crate::legend::{FRONT, GAP, LOWER_FRICTION, UPPER_FRICTION, not_exceeded};
 use crate::number::compact;
 use crate::plot::{Axis, PlotSeries, Shape, Style, contour, levels};
 
@@ -23,37 +24,31 @@ impl DesignReport<'_> {
             |figures: &Figures| [l.of(figures.displacement_m), a.of(figures.acceleration_m_per_s2)];
         let front: Vec<[f64; 2]> = self.run.found.front.iter().map(|p| at(&p.figures)).collect();
         let mut series = vec![
-            line("front", Style { width: 1.2, ..Style::MAIN }, front.clone()),
+            line(FRONT.label, FRONT.style, front.clone()),
             designs("", "#0b3c6f", front.clone()),
         ];
         if let Some((_, bounded)) = self.bounded() {
             for (label, fill, pick) in [
-                ("lower friction", "#fff", (|b| &b.lower) as fn(&Bounded) -> &Figures),
-                ("upper friction", "#767676", |b| &b.upper),
+                (LOWER_FRICTION.label, "#fff", (|b| &b.lower) as fn(&Bounded) -> &Figures),
+                (UPPER_FRICTION.label, "#767676", |b| &b.upper),
             ] {
                 let points: Vec<[f64; 2]> = bounded.iter().map(|b| at(pick(b))).collect();
                 series.push(PlotSeries {
                     style: Style { colour: "#b3541e", width: 0.7, dashes: "" },
-                    ..designs(label, fill, points)
+                    ..designs(&label, fill, points)
                 });
             }
         }
         let all: Vec<[f64; 2]> = series.iter().flat_map(|s| s.points.iter().copied()).collect();
         let top = all.iter().map(|p| p[1]).filter(|v| v.is_finite()).fold(0.0, f64::max);
         let gap = l.of(self.target.gap_m);
-        series.push(line("gap", Style::LIMIT, vec![[gap, 0.0], [gap, 1.06 * top]]));
+        series.push(line(GAP.label, GAP.style, vec![[gap, 0.0], [gap, 1.06 * top]]));
         let x = Axis::from_zero(
-            l.label(&format!(
-                "Displacement not exceeded in {} % of the records",
-                compact(100.0 * self.target.probability)
-            )),
+            l.label(&not_exceeded("Displacement", self.target.probability)),
             all.iter().map(|p| p[0]).chain([gap]),
         );
         let y = Axis::linear(
-            a.label(&format!(
-                "Acceleration not exceeded in {} % of the records",
-                compact(100.0 * self.target.acceleration_share)
-            )),
+            a.label(&not_exceeded("Acceleration", self.target.acceleration_share)),
             0.0,
             1.06 * top,
         );

@@ -6,10 +6,11 @@ use slipstick::table::Table;
 
 use super::{FragilityReport, POINTS, add_curve};
 use crate::assessment::key::group_value;
-use crate::assessment::lines::{GROUPS, line, panel, single};
+use crate::assessment::lines::{group_style, line, panel, single};
 use crate::assessment::sheet::{Sheet, cell};
 use crate::display::{DisplayUnits, Unit};
 use crate::json::{each, pretty};
+use crate::legend::PROBABILITY;
 use crate::number::compact;
 use crate::plot::Axis;
 use crate::view;
@@ -202,12 +203,12 @@ impl FragilityFamily<'_> {
                         [unit.of(at(i)), p]
                     })
                     .collect();
-                line(self.label(group), GROUPS[i % GROUPS.len()], points)
+                line(self.label(group), group_style(i), points)
             })
             .collect();
         let (x, y) = (
             Axis::linear(unit.label(&reports[0].1.run.measure), 0.0, unit.of(last)),
-            Axis::linear("Probability of exceedance", 0.0, 1.0),
+            Axis::linear(PROBABILITY.alone(Unit::NONE), 0.0, 1.0),
         );
         let caption = format!(
             "Probability of exceedance ({}) for each value of {}.",

@@ -8,6 +8,7 @@ use crate::assessment::key::title;
 use crate::assessment::lines::{BAND, band, dots, line, panel, single};
 use crate::display::Unit;
 use crate::figures::Drawn;
+use crate::legend::{self, FITTED, LIMIT, PROBABILITY};
 use crate::number::compact;
 use crate::plot::{Axis, Style};
 
@@ -19,8 +20,8 @@ impl FragilityReport<'_> {
         let percent = compact(100.0 * self.confidence);
         let points = x.iter().zip(column(1)).map(|(&x, p)| [x, p]).collect();
         let mut series = vec![
-            band(&x, &column(2), &column(3), format!("{percent} % band"), BAND),
-            line("fitted", Style { width: 2.0, ..Style::MAIN }, points),
+            band(&x, &column(2), &column(3), legend::band(self.confidence), BAND),
+            line(FITTED.label, FITTED.style, points),
         ];
         let hollow = |label: &str, points: Vec<[f64; 2]>| {
             dots(label, Style { colour: "#a3161c", width: 1.2, dashes: "" }, "#fff", points)
@@ -46,7 +47,7 @@ impl FragilityReport<'_> {
         let last = x.last().copied().unwrap_or(1.0);
         let axes = [
             Axis::linear(unit.label(&self.run.measure), 0.0, last),
-            Axis::linear("Probability of exceedance", 0.0, 1.0),
+            Axis::linear(PROBABILITY.alone(Unit::NONE), 0.0, 1.0),
         ];
         let [x_axis, y_axis] = axes;
         let caption = format!(
@@ -104,7 +105,7 @@ impl FragilityReport<'_> {
                 .collect();
             series.push(line(label, style, points));
         }
-        series.push(line("limit", Style::LIMIT, vec![[first, limit], [last, limit]]));
+        series.push(line(LIMIT.label, LIMIT.style, vec![[first, limit], [last, limit]]));
         let axes = [
             Axis::logarithmic(unit.label(&self.run.measure), first / 1.05, last * 1.05),
             Axis::logarithmic(edp.label(&title(self.demand)), low, high),

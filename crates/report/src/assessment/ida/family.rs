@@ -8,13 +8,14 @@ use slipstick::notice::Notice;
 
 use super::IdaReport;
 use crate::assessment::key::{group_value, title};
-use crate::assessment::lines::{GROUPS, RECORD, clipped, line, panel, share_names, single};
+use crate::assessment::lines::{clipped, group_style, line, panel, share_names, single};
 use crate::assessment::sheet::{Sheet, cell, counted_as, failed};
 use crate::display::DisplayUnits;
 use crate::figures::Drawn;
 use crate::json::{each, pretty};
+use crate::legend::{LIMIT, ONE_RECORD};
 use crate::number::compact;
-use crate::plot::{Axis, PlotSeries, Style};
+use crate::plot::{Axis, PlotSeries};
 use crate::view;
 
 /// What an incremental dynamic analysis of one or several designs is told from.
@@ -220,19 +221,19 @@ impl Groups<'_> {
                 let points = points.filter(|(_, demand)| !demand.value().is_nan());
                 let points = points.map(|(level, demand)| [edp.of(demand.value()), im.of(*level)]);
                 let points: Vec<_> = std::iter::once([0.0, 0.0]).chain(points).collect();
-                let label = if series.is_empty() { "record" } else { "" };
-                series.push(line(label, RECORD, clipped(&points, ends)));
+                let label = if series.is_empty() { ONE_RECORD.label } else { "".into() };
+                series.push(line(label, ONE_RECORD.style, clipped(&points, ends)));
             }
         }
         for (i, (label, report)) in self.each().enumerate() {
             let medians = report.levels_by_demand().into_iter();
             let points: Vec<_> =
                 medians.map(|(demand, levels)| [edp.of(demand), im.of(levels[1])]).collect();
-            series.push(line(label, GROUPS[i % GROUPS.len()], clipped(&points, ends)));
+            series.push(line(label, group_style(i), clipped(&points, ends)));
         }
         if let Some(limit) = limit {
             let x = edp.of(limit);
-            series.push(line("limit", Style::LIMIT, vec![[x, 0.0], [x, ends[1]]]));
+            series.push(line(LIMIT.label, LIMIT.style, vec![[x, 0.0], [x, ends[1]]]));
         }
         let x = Axis::linear(edp.label(&title(self.family.demand)), 0.0, ends[0]);
         let y = Axis::linear(im.label(first.measure), 0.0, ends[1]);
