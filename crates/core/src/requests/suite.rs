@@ -15,7 +15,7 @@ use crate::assessment::suite::{Scaling, times};
 use crate::assessment::sweep::Sweep;
 use crate::assessment::{AssessmentError, refuse};
 use crate::error::ChoiceError;
-use crate::input::{Analysis, Bound};
+use crate::input::{Analysis, Bound, Override};
 use crate::motion::GroundMotion;
 use crate::motion::intensity::LevelMeasure;
 use crate::motion::target::TargetSpectrum;
@@ -271,15 +271,30 @@ impl Request {
         read: &[(&str, &str)],
     ) -> Result<String, AssessmentError> {
         let over = Some(self.one("over")).filter(|over| !over.is_empty());
-        let models = self.models(on, over)?;
+        let models = match self.kind() {
+            Kind::Sweep => self.swept(on.source, on.text, on.set)?,
+            _ => self.models(on, over)?,
+        };
         let listed = |texts: &[String]| format!("[{}]", texts.join(", "));
         let quoted = |text: &str| format!("{text:?}");
         let mut plan = format!("name = {}\nmodel = \"{}\"\n", quoted(on.name), on.source);
-        // Those of a design are factors.
-        if let Some(bound) = self.given("bounds").filter(|_| self.kind() != Kind::Design) {
+        let bounds = match self.kind() {
+            // Those of a design are factors.
+            Kind::Design => None,
+            // A sweep follows the model as it stands.
+            Kind::Sweep => on.analysis.friction_bounds.map(|_| Bound::NOMINAL.name),
+            _ => self.given("bounds"),
+        };
+        if let Some(bound) = bounds {
             plan.push_str(&format!("bounds = {}\n", quoted(bound)));
         }
-        if !on.suite.made {
+        // Without files it is a study of the model's own motion, which has its factor in the model.
+        let scaled = ["scale", "scale-to"].into_iter().find(|name| self.given(name).is_some());
+        if let Some(field) = scaled.filter(|_| files.is_empty() && !on.suite.made) {
+            let expected = "records to scale, which a plan names";
+            return Err(refuse(field, expected, "the model's own record"));
+        }
+        if !files.is_empty() {
             let files: Vec<String> = files.iter().map(|name| quoted(name)).collect();
             plan.push_str(&format!("\n[records]\nfiles = {}\n", listed(&files)));
             for (key, text) in read {
@@ -302,7 +317,7 @@ impl Request {
         Ok(plan + &models.plan())
     }
 
-    /// Prepares a sweep of a model, whose text errors call `source`, on a motion with its tail.
+    /// Prepares a sweep of a model with keys set, whose text errors call `source`, on a motion with its tail.
     ///
     /// # Errors
     /// [`AssessmentError`], a choice by the name of its field.
@@ -310,8 +325,14 @@ impl Request {
         &self,
         source: &str,
         text: &str,
+        set: &[Override],
         motion: GroundMotion,
     ) -> Result<Sweep, AssessmentError> {
+        Ok(Sweep::new(self.swept(source, text, set)?, motion))
+    }
+
+    /// The models of a sweep.
+    fn swept(&self, source: &str, text: &str, set: &[Override]) -> Result<Models, AssessmentError> {
         let over = self.one("over");
         if over.is_empty() {
             return Err(refuse(
@@ -320,8 +341,7 @@ impl Request {
                 "nothing",
             ));
         }
-        let models = Models::new(source, text, &[], &[("over", over.to_owned())], true)?;
-        Ok(Sweep::new(models, motion))
+        Models::new(source, text, set, &[("over", over.to_owned())], true)
     }
 }
 
@@ -449,10 +469,12 @@ mod tests {
         let asked = |kind, given: &[(&'static str, &str)]| {
             let given = given.iter().map(|(name, text)| (*name, (*text).to_owned()));
             let asked = Request::new(kind, given).unwrap();
-            asked.plan(&on, &["a.txt", "b.txt"], &[("units", "g"), ("dt", "0.01 s")]).unwrap()
+            let files: &[&str] = if kind == Kind::Sweep { &[] } else { &["a.txt", "b.txt"] };
+            asked.plan(&on, files, &[("units", "g"), ("dt", "0.01 s")])
         };
+        let plan_of = |kind, given: &[(&'static str, &str)]| asked(kind, given).unwrap();
         let spectrum =
-            asked(Kind::Spectrum, &[("friction", "0.02, 0.05"), ("scale-to", "1, 2 m/s2")]);
+            plan_of(Kind::Spectrum, &[("friction", "0.02, 0.05"), ("scale-to", "1, 2 m/s2")]);
         let plan = Plan::parse("plan.toml", &spectrum).unwrap();
         assert_eq!(plan.name.as_deref(), Some("A \"block\""));
         let paths: Vec<&str> = plan.vary.iter().map(|varied| varied.path.as_str()).collect();
@@ -464,11 +486,20 @@ mod tests {
         let rate = 1.0 / core::f64::consts::TAU;
         assert_eq!(radius_m, 9.80665 * rate * rate);
         let design =
-            asked(Kind::Design, &[("vary", "slider.radius=1..2m:3"), ("bounds", "0.8,1.2")]);
+            plan_of(Kind::Design, &[("vary", "slider.radius=1..2m:3"), ("bounds", "0.8,1.2")]);
         assert!(
             Plan::parse("plan.toml", &design).is_ok() && design.contains("scale = [1.0]"),
             "{design}"
         );
-        assert!(Plan::parse("plan.toml", &asked(Kind::Ida, &[("bounds", "lower")])).is_ok());
+        assert!(Plan::parse("plan.toml", &plan_of(Kind::Ida, &[("bounds", "lower")])).is_ok());
+        // A sweep is a study of the model's own motion, and a plan cannot scale that.
+        let sweep = plan_of(Kind::Sweep, &[("over", "slider.kinetic_friction=0.02..0.05:4")]);
+        let plan = Plan::parse("plan.toml", &sweep).unwrap();
+        assert!(plan.records.is_none() && plan.bound.is_none(), "{sweep}");
+        let paths: Vec<&str> = plan.vary.iter().map(|varied| varied.path.as_str()).collect();
+        assert_eq!(paths, ["slider.kinetic_friction", "slider.static_friction"]);
+        let alone = Request::new(Kind::Spectrum, [("scale-to", "1 m/s2".to_owned())]).unwrap();
+        let error = alone.plan(&on, &[], &[]).unwrap_err().to_string();
+        assert!(error.contains("expected records to scale, which a plan names"), "{error}");
     }
 }
