@@ -271,14 +271,32 @@ async function zipped(page, whole) {
   return { text, truth };
 }
 
-/** At rest: all five, of one model; where what is wanted has no answer, all but the text are of the last that had one. */
+/** At rest: all five, of one model. What comes in between, such as a Back on a slow machine, is waited for. */
 async function atRest(page, whole) {
+  const wanted = () => page.evaluate(() => globalThis.tried.shown().wanted);
+  for (;;) {
+    await comesToRest(page);
+    const before = await wanted();
+    if (!(await page.evaluate(rest, [false, true]))) continue;
+    try {
+      return await compared(page, whole);
+    } catch (error) {
+      if (before === (await wanted())) throw error;
+    }
+  }
+}
+
+async function comesToRest(page) {
   const rests = () => page.waitForFunction(rest, [false, true], { timeout: 20_000, polling: 20 });
   // What takes long is ended as a person would end it.
   await rests().catch(async () => {
     await page.evaluate(() => globalThis.tried.another());
     await rests();
   });
+}
+
+/** What stands there, compared; where what is wanted has no answer, all but the text are of the last that had one. */
+async function compared(page, whole) {
   let now;
   let link;
   // The address follows within an instant.
