@@ -8,6 +8,9 @@ import { rest } from "./harness.mjs";
 const SECONDS = 16;
 const STEPS = 7;
 
+/** How long a page may take until it rests, in ms: where many sequences are tried, beside other work of the machine. */
+const REST_MS = process.env.SLIPSTICK_SEQUENCES ? 120_000 : 20_000;
+
 /** Random numbers of a seed, from 0 to 1. */
 function random(seed) {
   let state = seed >>> 0;
@@ -287,7 +290,7 @@ async function atRest(page, whole) {
 }
 
 async function comesToRest(page) {
-  const rests = () => page.waitForFunction(rest, [false, true], { timeout: 20_000, polling: 20 });
+  const rests = () => page.waitForFunction(rest, [false, true], { timeout: REST_MS, polling: 20 });
   // What takes long is ended as a person would end it.
   await rests().catch(async () => {
     await page.evaluate(() => globalThis.tried.another());
