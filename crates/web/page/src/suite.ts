@@ -62,7 +62,7 @@ export class SuiteTab implements Tab {
   private wanted: Record<string, string> = {};
   private readonly go = h("button", { type: "submit", class: "main", disabled: true }, "Run");
   private helper: Helper | undefined;
-  /** The model that the form is of. */
+  /** Model and units that the form is of. */
   private formOf: string | undefined;
   /** What the form says, which is often the same for another model. */
   private made = "";
@@ -95,11 +95,12 @@ export class SuiteTab implements Tab {
 
   /** Makes the form of the model, which stays where it is of another; what need not be said stands folded below. */
   private async build(): Promise<void> {
-    const of = this.page.text();
+    const [text, display] = [this.page.text(), this.page.display()];
+    const of = this.asksFor;
     this.formOf = of;
     let form;
     try {
-      form = await this.page.desk.helper.call("form", this.id, of, this.page.display());
+      form = await this.page.desk.helper.call("form", this.id, text, display);
     } catch {
       // It is asked for again where the tab is opened again.
       if (this.formOf === of) this.formOf = undefined;
@@ -119,6 +120,11 @@ export class SuiteTab implements Tab {
     this.restore(this.wanted);
     this.update();
     if (!this.element.hidden) this.stand();
+  }
+
+  /** What the form is asked for of. */
+  private get asksFor(): string {
+    return JSON.stringify([this.page.text(), this.page.display()]);
   }
 
   private get subject(): string {
@@ -178,8 +184,8 @@ export class SuiteTab implements Tab {
   open(): void {
     const state = this.page.state();
     if (!state) return;
-    // What there is to choose from is of the model.
-    if (this.formOf !== this.page.text()) void this.build();
+    // What there is to choose from is of the model, in the units of the page.
+    if (this.formOf !== this.asksFor) void this.build();
     this.update();
     this.stand();
   }
