@@ -24,7 +24,7 @@ use crate::assessment::histories::Histories;
 use crate::assessment::ida::{IdaLevels, IdaRequest, IdaRun, run_ida};
 use crate::assessment::models::Models;
 use crate::assessment::observed::{
-    FitTo, FragilityGroup, FragilityRequest, FragilityRun, certified, run_fragility,
+    FitTo, FragilityGroup, FragilityRequest, FragilityRun, certified, noticed, run_fragility,
     run_fragility_by, usual_by,
 };
 use crate::assessment::spectrum::{SpectrumRequest, SpectrumRun, run_spectrum};
@@ -327,7 +327,7 @@ impl Request {
             model_hash: None,
             records: Vec::new(),
             scaled: String::new(),
-            warnings: Vec::new(),
+            warnings: noticed(&request)?,
             title: Vec::new(),
             found: Results::Fragility { demand, limit, confidence, certified, curves },
         })

@@ -32,7 +32,7 @@ use crate::error::Stopped;
 use crate::model::{Model, Stop, StopKind};
 use crate::motion::GroundMotion;
 use crate::progress::{Cancel, NEVER_CANCELLED, Pulse};
-use crate::response::{History, Response, interface_name};
+use crate::response::{DemandColumn, History, Response, interface_name};
 
 /// Radians beyond which the phase of the fastest mode says nothing: every interval is divided into
 /// steps of half a radian, so this also bounds the work.
@@ -155,7 +155,7 @@ impl Certificate {
     /// The first four figures by their names, that of the demands with the demand.
     fn figures(&self) -> [(String, f64); 4] {
         let of_demand = match &self.demand_in_error {
-            Some(demand) => format!("demands error of {demand}"),
+            Some(demand) => format!("demands error of {}", demand_in_words(demand)),
             None => "demands error".to_owned(),
         };
         [
@@ -191,6 +191,23 @@ impl Certificate {
             && self.energy_balance_error <= self.bound
             && self.demands_error <= self.bound
     }
+}
+
+/// What [`Certificate::demand_in_error`] is called in a sentence: `sliding path`, `storey 2 peak drift along y`.
+fn demand_in_words(demand: &str) -> String {
+    let axis = |axis: &'static str| Some((demand.strip_prefix(axis)?.strip_prefix('.')?, axis));
+    let (key, along) = match axis("x").or_else(|| axis("y")) {
+        Some((key, axis)) => (key, format!(" along {axis}")),
+        None => (demand, String::new()),
+    };
+    let words = match (DemandColumn::of_name(key), key) {
+        (Some(column), _) => column.words(),
+        // The one figure of a response in two directions that no list of demands has.
+        (None, "least_sliding_speed_m_per_s") => "least sliding speed".to_owned(),
+        // What is compared as a whole is named by one word, such as `events`.
+        (None, word) => word.to_owned(),
+    };
+    words + &along
 }
 
 /// Energy in the frame of the table at every knot, in J.
@@ -323,4 +340,25 @@ fn well_formed(model: &Model, n: usize, motion: &GroundMotion, history: &History
         && history.time_s.first() == Some(&0.0)
         && history.time_s.windows(2).all(|pair| pair[0] <= pair[1])
         && history.time_s.last().is_some_and(|t| t.is_finite() && *t >= ends_s)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A certificate calls a demand as tables and titles do, with its part and its axis.
+    #[test]
+    fn a_demand_in_error_is_named_in_words() {
+        for (key, said) in [
+            ("sliding_path_m", "sliding path"),
+            ("block.peak_acceleration_m_per_s2", "block peak acceleration"),
+            ("storey2_peak_drift_m", "storey 2 peak drift"),
+            ("y.storey1_peak_drift_m", "storey 1 peak drift along y"),
+            ("stop.peak_force_n", "stop peak force"),
+            ("least_sliding_speed_m_per_s", "least sliding speed"),
+            ("events", "events"),
+        ] {
+            assert_eq!(demand_in_words(key), said);
+        }
+    }
 }

@@ -223,7 +223,7 @@ kinds! {
     NoCurve "no_curve" Warning,
     /// No design keeps the gap.
     NoFeasibleDesign "no_feasible_design" Warning,
-    /// The chosen design passes the gap at a bound of friction.
+    /// The chosen design exceeds the gap at a bound of friction.
     NotRobust "not_robust" Warning,
     /// The demand falls below the limit again at a higher level.
     Resurrection "resurrection" Warning,

@@ -10,7 +10,7 @@ use crate::display::DisplayUnits;
 use crate::figures::{self, Drawn};
 use crate::laboratory::text::is_number;
 use crate::markup::Markup;
-use crate::number::{compact, typeset};
+use crate::number::{compact, typeset, typeset_sentence};
 use crate::report::Report;
 use crate::summary::method_name;
 use slipstick::notice::{Notice, Severity};
@@ -144,7 +144,8 @@ fn told(out: &mut Markup, warnings: &[(Option<&'static str>, &Notice)], display:
         if let Some(time_s) = warning.time_s {
             out.text(format!(" at {} s", typeset(&compact(time_s))));
         }
-        out.raw(": ").text(display.sentence(&warning.message)).raw("</li>\n");
+        let message = typeset_sentence(&display.sentence(&warning.message));
+        out.raw(": ").text(message).raw("</li>\n");
     }
     out.raw("</ul>\n");
 }

@@ -99,6 +99,24 @@ pub fn typeset(plain: &str) -> String {
     }
 }
 
+/// A sentence with the numbers in it set as in print.
+///
+/// ```
+/// use slipstick_report::number::typeset_sentence;
+/// assert_eq!(typeset_sentence("r-1: at -0.2, not 0"), "r-1: at −0.2, not 0");
+/// ```
+#[must_use]
+pub fn typeset_sentence(plain: &str) -> String {
+    let set = |word: &str| {
+        let number = word.trim_end_matches([',', ';', ':']);
+        match number.parse::<f64>().is_ok_and(f64::is_finite) {
+            true => typeset(number) + &word[number.len()..],
+            false => word.to_owned(),
+        }
+    };
+    plain.split(' ').map(set).collect::<Vec<_>>().join(" ")
+}
+
 /// [`significant`] and [`typeset`] in one.
 #[must_use]
 pub fn printed(value: f64, digits: usize) -> String {

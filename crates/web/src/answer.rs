@@ -8,7 +8,7 @@ use slipstick::response::{Demands, EventKind, History, Response, StoreyDemands};
 use slipstick::units::{Dimension, parse_unit};
 use slipstick_report::display::{DisplayUnits, Quantity, Unit};
 use slipstick_report::json::{Serialize, each, pretty};
-use slipstick_report::number::{compact, rounded};
+use slipstick_report::number::{compact, rounded, typeset_sentence};
 use slipstick_report::{Summary, describe, peaks, view};
 use wasm_bindgen::prelude::*;
 
@@ -294,6 +294,6 @@ pub fn warning(
         kind: notice.kind.words(),
         run,
         time_s: notice.time_s,
-        message: display.sentence(&notice.message),
+        message: typeset_sentence(&display.sentence(&notice.message)),
     }
 }

@@ -12,6 +12,7 @@ use slipstick_report::assessment::answer::Tabled;
 use slipstick_report::assessment::key::{of_measure, quantity, title};
 use slipstick_report::display::{Quantity, Unit};
 use slipstick_report::json::{Serialize, cell_values, each, pretty};
+use slipstick_report::number::typeset_sentence;
 use slipstick_report::view;
 
 use crate::answer::shown_unit;
@@ -104,7 +105,7 @@ pub fn surveyed(
         measure: measured,
         duration_s: loaded.motion.duration_s(),
         notices: each(&loaded.warnings, |notice| {
-            format!("{}: {}", notice.label(), display.sentence(&notice.message))
+            format!("{}: {}", notice.label(), typeset_sentence(&display.sentence(&notice.message)))
         }),
     }))
 }

@@ -607,7 +607,7 @@ fn kinds_of_numbers(numbers: &[f64]) -> String {
     kinds.map(|(_, kind)| kind.name()).collect::<Vec<_>>().join(";")
 }
 
-/// A dropped plan with its records, to be run in parts.
+/// A plan with its records, to be run in parts.
 pub struct Planned {
     plan: String,
     text: String,
@@ -761,8 +761,12 @@ impl Planned {
             InputText { path: PLAN, text: &self.plan },
             InputText { path: &self.model, text: &self.text },
         ];
-        let command = ["study", PLAN, "--report", "--out", "out"].map(str::to_owned);
-        let commands = vec![report::command_line(command)];
+        let mut words = vec!["study", PLAN, "--report"];
+        if display != DisplayUnits::default() {
+            words.extend(["--display-units", display.name()]);
+        }
+        words.extend(["--out", "out"]);
+        let commands = vec![report::command_line(words.into_iter().map(str::to_owned))];
         let tables = runs::tables(&[self.table(rows)], display);
         let of = |file: &PlanFile| (file.path.clone(), None, file.file.clone());
         let again = Again { commands, records: self.files.iter().map(of).collect(), tables };
@@ -782,6 +786,9 @@ fn planned(
 ) -> Result<Planned, Failure> {
     let in_plan = |error| Failure::input(&error, plan_text);
     let plan = Plan::parse(PLAN, plan_text).map_err(in_plan)?;
+    let set = records.modes(text)?;
+    // What is wrong with the model the study says, with the varied values in it.
+    let analysis = parse(text, &set).ok();
     let (mut suite, mut notices, mut sources) = (Vec::new(), Vec::new(), Vec::new());
     if let Some(wanted) = &plan.records {
         let named = |key: &str, patterns: &[String]| {
@@ -835,10 +842,27 @@ fn planned(
         let record =
             |(name, loaded, pair): (&String, _, _)| Record::read(name.clone(), loaded, pair);
         suite = read.into_iter().map(record).collect();
+    } else if let Some(analysis) = &analysis
+        && let Some(MotionSource::Record(source)) = &analysis.motion
+    {
+        // The model's own record, scaled as the model says.
+        let one = analysis.in_one_direction("a study varies");
+        one.map_err(|error| Failure::input(&error, text))?;
+        let loaded = records.motion(analysis, text)?;
+        suite.push(Record::read(source.path.clone(), loaded, None));
+        let of_motion = files_of_motion(records, analysis).into_iter();
+        sources.extend(of_motion.map(|(path, sha256)| PlanFile {
+            file: path.clone(),
+            path,
+            sha256,
+        }));
     }
-    let study = Study::new(&plan, MODEL, text, suite).map_err(|error| {
+    // A study reads one text: that of the model with the modes that it names in it.
+    let with_modes = analysis.filter(|_| !set.is_empty()).map(|of| of.to_toml_with_motion());
+    let text_of_model = with_modes.as_deref().unwrap_or(text);
+    let study = Study::new(&plan, MODEL, text_of_model, suite).map_err(|error| {
         let of_plan = error.place.source_name == PLAN;
-        Failure::input(&error, if of_plan { plan_text } else { text })
+        Failure::input(&error, if of_plan { plan_text } else { text_of_model })
     })?;
     const MOST_RUNS: u64 = 1_000_000;
     let runs = study.runs();

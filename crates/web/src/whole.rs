@@ -92,7 +92,8 @@ impl Session {
     ) -> Result<Vec<f64>, JsValue> {
         let key = format!("{over}\n{text}");
         if self.more.sweep.as_ref().is_none_or(|(of, _)| *of != key) {
-            let analysis = parse(text, &[])?;
+            let set = self.records.modes(text)?;
+            let analysis = parse(text, &set)?;
             let one = analysis.in_one_direction("a sweep follows");
             one.map_err(|error| Failure::input(&error, text))?;
             self.load(&analysis, text)?;
@@ -100,7 +101,7 @@ impl Session {
             let motion = ground.with_tail.motion().clone();
             let asked = Request::new(Kind::Sweep, [("over", over.to_owned())]);
             let asked = asked.map_err(|error| Failure::choice(&error))?;
-            let sweep = asked.sweep(MODEL, text, motion);
+            let sweep = asked.sweep(MODEL, text, &set, motion);
             self.more.sweep =
                 Some((key, sweep.map_err(|error| Failure::assessment(&error, text))?));
         }

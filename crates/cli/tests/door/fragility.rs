@@ -79,6 +79,7 @@ fn fragility_of_a_study_counts_its_rows() {
     assert_eq!(crossings("ida/ida.parquet")["median"], crossings("ida/ida.csv")["median"]);
     assert!(number(&crossings("study")["median"]) > 0.0);
     let csv = folder.read("ida/ida.csv");
+    assert!(csv.lines().next().unwrap().contains(",warnings,holds,"), "{csv}");
     let (levels, demands) = (column(&csv, "level"), column(&csv, "peak_sliding_displacement_m"));
     for stripe in of_study["stripes"].as_array().unwrap() {
         let level = number(&stripe["level"]);
@@ -144,6 +145,14 @@ fn intervals_of_a_study_are_clustered_by_record() {
     let by = of(&["--by", "slider.radius"]);
     let curves = by["curves"].as_array().unwrap();
     assert_eq!((curves.len(), &by["by_unit"]), (2, &"m".into()));
+    // What is noticed of several curves is told once.
+    let noticed = |of: &serde_json::Value, kind: &str| -> Vec<String> {
+        let all = of["warnings"].as_array().unwrap().iter().filter(|w| w["kind"] == kind);
+        all.map(|w| w["message"].as_str().unwrap().to_owned()).collect()
+    };
+    let few = "6 records: intervals over so few records are rough";
+    assert_eq!(noticed(&all, "few_records"), [few]);
+    assert_eq!(noticed(&by, "few_records"), [format!("1.5 m: {few} (and 1 of the other curves)")]);
     for (curve, radius) in curves.iter().zip(["1.5 m", "2 m"]) {
         let alone = of(&["--where", &format!("slider.radius={radius}")]);
         // The version and the warnings are those of the whole answer.

@@ -84,7 +84,7 @@ pub struct SearchResult {
     pub front: Vec<Point>,
     /// Runs made, of designs × records.
     pub runs: u64,
-    /// Designs dropped because they pass the gap too often.
+    /// Designs dropped because they exceed the gap too often.
     pub beyond_gap: usize,
     /// Where no design is feasible, the one with the least displacement of all.
     pub nearest: Option<Point>,

@@ -10,6 +10,7 @@ use super::{AssessmentError, refuse};
 use crate::error::FitError;
 use crate::notice::{Notice, NoticeKind};
 use crate::study::Certified;
+use crate::study::cases::{NOTICED, of_a_cell, of_runs, tally};
 use crate::study::engine::Engine;
 use crate::table::{Cells, Table};
 
@@ -238,15 +239,31 @@ pub fn certified(request: &FragilityRequest<'_>) -> Result<Option<Certified>, As
     let kept = rows::keep(columns, request.keep)?;
     let columns = Columns { table: kept.as_ref().unwrap_or(request.table), ..columns };
     let Some(holds) = columns.holds() else { return Ok(None) };
-    let texts =
-        |name: &str, row: usize| columns.table.texts_of(name).map(|texts| texts[row].clone());
+    let status = |row| columns.text("status", row).filter(|status| *status != "ok");
     let mut certified = Certified::of(holds.len() as u64);
     for (row, holds) in holds.into_iter().enumerate().filter(|(_, holds)| !holds.is_nan()) {
-        let run = texts("record", row).unwrap_or_else(|| format!("row {row}"));
-        let said = || texts("status", row).filter(|status| status != "ok").unwrap_or_default();
-        certified.add_judged(&run, None, (holds == 0.0).then(said));
+        let said = || status(row).unwrap_or_default().to_owned();
+        certified.add_judged(&columns.run(row), None, (holds == 0.0).then(said));
     }
     Ok(Some(certified))
+}
+
+/// What the runs of a table gave notice of, where its column `warnings` says it, of the rows that are kept: each kind
+/// once, with the number of its runs and the first of them.
+///
+/// # Errors
+/// [`AssessmentError`] for conditions that cannot be understood.
+pub fn noticed(request: &FragilityRequest<'_>) -> Result<Vec<Notice>, AssessmentError> {
+    let columns = Columns { table: request.table, source_name: request.source_name };
+    let kept = rows::keep(columns, request.keep)?;
+    let columns = Columns { table: kept.as_ref().unwrap_or(request.table), ..columns };
+    let Some(cells) = columns.table.texts_of(NOTICED) else { return Ok(Vec::new()) };
+    let mut kinds = Vec::new();
+    for (row, cell) in cells.iter().enumerate() {
+        of_a_cell(cell).for_each(|kind| tally(&mut kinds, &kind, row));
+    }
+    let told = |(kind, gave, row)| of_runs(kind, gave, cells.len(), &columns.run(row));
+    Ok(kinds.into_iter().map(told).collect())
 }
 
 fn fit(

@@ -117,9 +117,12 @@ pub struct Suite {
     pub notices: Vec<Notice>,
 }
 
-/// Notices of many records, each kind once with the record that gave it first and the number of the others
-/// that give it.
-pub fn condensed<'a>(of: impl IntoIterator<Item = (&'a str, &'a [Notice])>) -> Vec<Notice> {
+/// Notices of many, which are `called` so, such as records: each kind once with the one that gave it first and the
+/// number of the others that give it.
+pub fn condensed<'a>(
+    called: &str,
+    of: impl IntoIterator<Item = (&'a str, &'a [Notice])>,
+) -> Vec<Notice> {
     let mut noticed: Vec<(Notice, Vec<&str>)> = Vec::new();
     for (name, notices) in of {
         for notice in notices {
@@ -140,7 +143,7 @@ pub fn condensed<'a>(of: impl IntoIterator<Item = (&'a str, &'a [Notice])>) -> V
     let told = |(notice, names): (Notice, Vec<&str>)| match names.len() - 1 {
         0 => notice,
         more => {
-            let message = format!("{} (and {more} of the other records)", notice.message);
+            let message = format!("{} (and {more} of the other {called})", notice.message);
             Notice { message, ..notice }
         }
     };
@@ -224,7 +227,7 @@ impl Suite {
     #[must_use]
     pub fn noticed(&self) -> Vec<Notice> {
         let of_each = self.records.iter().map(|record| (&record.name[..], &record.notices[..]));
-        condensed(of_each).into_iter().chain(self.notices.iter().cloned()).collect()
+        condensed("records", of_each).into_iter().chain(self.notices.iter().cloned()).collect()
     }
 
     /// What an answer over the suite is of.

@@ -28,7 +28,7 @@ pub fn vertical_alone(path: &str, origin: &Origin) -> Option<Notice> {
 }
 
 /// Refuses vertical components where horizontal ones are run, and pairs that are none; gives a sentence
-/// for each motion that stands there under two names. The components of pairs stand beside each other.
+/// for each motion that stands there under several names. The components of pairs stand beside each other.
 ///
 /// A channel that was asked for by name is the one that is wanted, whatever it is.
 ///
@@ -61,15 +61,34 @@ pub fn refuse_unfit(
             }
         }
     }
-    let mut twice = Vec::new();
-    for (i, (name, loaded)) in records.iter().enumerate() {
-        let twin = records[..i].iter().find(|(other, known)| other != name && same(known, loaded));
-        if let Some((other, _)) = twin {
-            twice.push(format!("{other} and {name} are the same motion: it counts twice"));
+    let mut motions: Vec<(&Loaded, Vec<&str>)> = Vec::new();
+    for (name, loaded) in records {
+        match motions.iter_mut().find(|(known, _)| same(known, loaded)) {
+            Some((_, names)) if names.contains(&&name[..]) => {}
+            Some((_, names)) => names.push(name),
+            None => motions.push((loaded, vec![name])),
         }
     }
-    Ok(twice)
+    Ok(motions.iter().filter_map(|(_, names)| counted_again(names)).collect())
 }
+
+/// That a motion stands there under several names; nothing of one name.
+fn counted_again(names: &[&str]) -> Option<String> {
+    let (last, first) = names.split_last()?;
+    let times = match first.len() {
+        0 => return None,
+        1 => "twice".to_owned(),
+        others => format!("{} times", others + 1),
+    };
+    let (first, last) = match first.len() {
+        ..=NAMED => (first.join(", "), (*last).to_owned()),
+        others => (first[..NAMED].join(", "), format!("{} others", others + 1 - NAMED)),
+    };
+    Some(format!("{first} and {last} are the same motion: it counts {times}"))
+}
+
+/// So many names of one motion are told; of more the others are counted.
+const NAMED: usize = 4;
 
 fn file_name(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or(path)
@@ -97,5 +116,20 @@ mod tests {
         let named = [("a".to_owned(), &a), ("b".to_owned(), &b), ("c".to_owned(), &c)];
         let same = refuse_unfit(&named, true, false).unwrap();
         assert_eq!(same, ["a and c are the same motion: it counts twice"]);
+    }
+
+    /// A motion under many names is told in one sentence, which counts those beyond the first four.
+    #[test]
+    fn one_motion_is_one_sentence() {
+        let names = ["a", "b", "c", "d", "e", "f"];
+        for (count, said) in [
+            (1, None),
+            (2, Some("a and b are the same motion: it counts twice")),
+            (4, Some("a, b, c and d are the same motion: it counts 4 times")),
+            (5, Some("a, b, c, d and e are the same motion: it counts 5 times")),
+            (6, Some("a, b, c, d and 2 others are the same motion: it counts 6 times")),
+        ] {
+            assert_eq!(counted_again(&names[..count]).as_deref(), said);
+        }
     }
 }

@@ -92,8 +92,15 @@ impl Anderson {
         if word(lowest) == word(mean) {
             return format!("{mean:.1} {}", word(mean));
         }
-        format!("{mean:.1}, {} {lowest:.1} {}", name.replace('_', " "), word(lowest))
+        format!("{mean:.1}, {} {lowest:.1} {}", in_words(name), word(lowest))
     }
+}
+
+/// What a score is called in texts: `Arias duration` of `arias_duration`.
+#[must_use]
+pub fn in_words(name: &str) -> String {
+    // Those that are called after a person begin with a capital letter.
+    name.replace('_', " ").replace("arias", "Arias").replace("fourier", "Fourier")
 }
 
 /// The word for a score.
@@ -305,6 +312,8 @@ mod tests {
             fourier_spectrum: 9.5,
             cross_correlation,
         };
+        assert_eq!(in_words("arias_intensity"), "Arias intensity");
+        assert_eq!(in_words("cross_correlation"), "cross correlation");
         assert_eq!(all(9.5).words(Some(0.93)), "9.5 excellent");
         assert_eq!(all(6.7).words(None), "9.2, cross correlation 6.7 good");
         assert_eq!(all(9.5).words(Some(0.78)), "9.5, but fair: the peak is 22 % low");

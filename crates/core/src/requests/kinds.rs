@@ -539,7 +539,7 @@ impl Kind {
                 "How much each key of the model changes each demand, with its error."
             }
             Self::Ida => "Incremental dynamic analysis: demands over intensity, record by record.",
-            Self::Fragility => "The probability of passing a limit over intensity.",
+            Self::Fragility => "The probability of exceeding a limit over intensity.",
             Self::Design => "The least floor acceleration that stays within a gap.",
             Self::Compare => "A prediction beside what was measured on a shaking table.",
             Self::Cyclic => "Friction, spring and damper from cyclic tests.",

@@ -1,7 +1,7 @@
 //! What is asked of models on the records of suites, and of one motion over a parameter.
 
 use super::fields::{Request, quantity, wrong};
-use super::{Answer, AtHazard, On, Results, of_measure};
+use super::{Answer, AtHazard, Kind, On, Results, of_measure};
 use crate::assessment::code::{
     Code, Judged, Judgement, Plan, PropertyFactors, bounds_of, judge, named,
 };
@@ -13,7 +13,7 @@ use crate::assessment::suite::{Scaling, times};
 use crate::assessment::sweep::Sweep;
 use crate::assessment::{AssessmentError, refuse};
 use crate::error::ChoiceError;
-use crate::input::{Analysis, Bound};
+use crate::input::{Analysis, Bound, Override};
 use crate::motion::GroundMotion;
 use crate::motion::intensity::LevelMeasure;
 use crate::motion::target::TargetSpectrum;
@@ -267,14 +267,28 @@ impl Request {
         read: &[(&str, &str)],
     ) -> Result<String, AssessmentError> {
         let over = Some(self.one("over")).filter(|over| !over.is_empty());
-        let models = self.models(on, over)?;
+        let models = match self.kind() {
+            Kind::Sweep => self.swept(on.source, on.text, on.set)?,
+            _ => self.models(on, over)?,
+        };
         let listed = |texts: &[String]| format!("[{}]", texts.join(", "));
         let quoted = |text: &str| format!("{text:?}");
         let mut plan = format!("name = {}\nmodel = \"{}\"\n", quoted(on.name), on.source);
-        if let Some(bound) = self.given("bounds") {
+        let bounds = match self.kind() {
+            // A sweep follows the model as it stands.
+            Kind::Sweep => on.analysis.friction_bounds.map(|_| Bound::NOMINAL.name),
+            _ => self.given("bounds"),
+        };
+        if let Some(bound) = bounds {
             plan.push_str(&format!("bounds = {}\n", quoted(bound)));
         }
-        if !on.suite.made {
+        // Without files it is a study of the model's own motion, which has its factor in the model.
+        let scaled = ["scale", "scale-to"].into_iter().find(|name| self.given(name).is_some());
+        if let Some(field) = scaled.filter(|_| files.is_empty() && !on.suite.made) {
+            let expected = "records to scale, which a plan names";
+            return Err(refuse(field, expected, "the model's own record"));
+        }
+        if !files.is_empty() {
             let files: Vec<String> = files.iter().map(|name| quoted(name)).collect();
             plan.push_str(&format!("\n[records]\nfiles = {}\n", listed(&files)));
             for (key, text) in read {
@@ -297,7 +311,7 @@ impl Request {
         Ok(plan + &models.plan())
     }
 
-    /// Prepares a sweep of a model, whose text errors call `source`, on a motion with its tail.
+    /// Prepares a sweep of a model with keys set, whose text errors call `source`, on a motion with its tail.
     ///
     /// # Errors
     /// [`AssessmentError`], a choice by the name of its field.
@@ -305,8 +319,14 @@ impl Request {
         &self,
         source: &str,
         text: &str,
+        set: &[Override],
         motion: GroundMotion,
     ) -> Result<Sweep, AssessmentError> {
+        Ok(Sweep::new(self.swept(source, text, set)?, motion))
+    }
+
+    /// The models of a sweep.
+    fn swept(&self, source: &str, text: &str, set: &[Override]) -> Result<Models, AssessmentError> {
         let over = self.one("over");
         if over.is_empty() {
             return Err(refuse(
@@ -315,8 +335,7 @@ impl Request {
                 "nothing",
             ));
         }
-        let models = Models::new(source, text, &[], &[("over", over.to_owned())], true)?;
-        Ok(Sweep::new(models, motion))
+        Models::new(source, text, set, &[("over", over.to_owned())], true)
     }
 }
 
@@ -444,10 +463,12 @@ mod tests {
         let asked = |kind, given: &[(&'static str, &str)]| {
             let given = given.iter().map(|(name, text)| (*name, (*text).to_owned()));
             let asked = Request::new(kind, given).unwrap();
-            asked.plan(&on, &["a.txt", "b.txt"], &[("units", "g"), ("dt", "0.01 s")]).unwrap()
+            let files: &[&str] = if kind == Kind::Sweep { &[] } else { &["a.txt", "b.txt"] };
+            asked.plan(&on, files, &[("units", "g"), ("dt", "0.01 s")])
         };
+        let plan_of = |kind, given: &[(&'static str, &str)]| asked(kind, given).unwrap();
         let spectrum =
-            asked(Kind::Spectrum, &[("friction", "0.02, 0.05"), ("scale-to", "1, 2 m/s2")]);
+            plan_of(Kind::Spectrum, &[("friction", "0.02, 0.05"), ("scale-to", "1, 2 m/s2")]);
         let plan = Plan::parse("plan.toml", &spectrum).unwrap();
         assert_eq!(plan.name.as_deref(), Some("A \"block\""));
         let paths: Vec<&str> = plan.vary.iter().map(|varied| varied.path.as_str()).collect();
@@ -458,7 +479,7 @@ mod tests {
         let radius_m: f64 = radius.split(' ').next().unwrap().parse().unwrap();
         let rate = 1.0 / core::f64::consts::TAU;
         assert_eq!(radius_m, 9.80665 * rate * rate);
-        let design = asked(
+        let design = plan_of(
             Kind::Design,
             &[("vary", "slider.radius=1..2m:3"), ("friction-factors", "0.8,1.2")],
         );
@@ -466,6 +487,15 @@ mod tests {
             Plan::parse("plan.toml", &design).is_ok() && design.contains("scale = [1.0]"),
             "{design}"
         );
-        assert!(Plan::parse("plan.toml", &asked(Kind::Ida, &[("bounds", "lower")])).is_ok());
+        assert!(Plan::parse("plan.toml", &plan_of(Kind::Ida, &[("bounds", "lower")])).is_ok());
+        // A sweep is a study of the model's own motion, and a plan cannot scale that.
+        let sweep = plan_of(Kind::Sweep, &[("over", "slider.kinetic_friction=0.02..0.05:4")]);
+        let plan = Plan::parse("plan.toml", &sweep).unwrap();
+        assert!(plan.records.is_none() && plan.bound.is_none(), "{sweep}");
+        let paths: Vec<&str> = plan.vary.iter().map(|varied| varied.path.as_str()).collect();
+        assert_eq!(paths, ["slider.kinetic_friction", "slider.static_friction"]);
+        let alone = Request::new(Kind::Spectrum, [("scale-to", "1 m/s2".to_owned())]).unwrap();
+        let error = alone.plan(&on, &[], &[]).unwrap_err().to_string();
+        assert!(error.contains("expected records to scale, which a plan names"), "{error}");
     }
 }

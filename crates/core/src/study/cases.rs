@@ -18,7 +18,7 @@ use crate::error::{MotionError, RunError, Stopped};
 use crate::input::{Bound, MotionSource, Parts};
 use crate::model::Model;
 use crate::motion::GroundMotion;
-use crate::notice::{Notice, NoticeKind};
+use crate::notice::{Notice, NoticeKind, Severity};
 use crate::response::{Response, flat_geometry};
 use crate::solver::{self, PreparedMotion, Workspace};
 use crate::table::{Cells, Column, Table};
@@ -455,19 +455,44 @@ pub(crate) fn status(error: Option<&RunError>) -> String {
     error.map_or_else(|| "ok".to_owned(), RunError::to_string)
 }
 
-/// Adds what runs say besides their demands: of sliders with surfaces the travel that was used up, and whether the
-/// check confirms a run, empty where it was not asked.
+/// Adds what runs say besides their demands: of sliders with surfaces the travel that was used up, the kinds of what
+/// was noticed of their responses, and whether the check confirms a run, empty where it was not asked.
 pub(crate) fn add_answers<R, M>(table: &mut Table, ran: &[CaseRun<R, M>], has_surfaces: bool) {
     if has_surfaces {
         let used_up = ran.iter().map(|ran| ran.travel_used_up_m().unwrap_or(f64::NAN));
         table.numbers(TRAVEL_USED_UP, "m", used_up.collect());
     }
+    table.texts(NOTICED, ran.iter().map(|ran| in_a_cell(&Noticed::kinds(&ran.noticed))).collect());
     let cells = Cells::Flags(ran.iter().map(|ran| ran.holds).collect());
     table.columns.push(Column { name: HOLDS.to_owned(), unit: String::new(), cells });
 }
 
 /// Name of the column that says whether the check confirms a run.
 pub(crate) const HOLDS: &str = "holds";
+
+/// Name of the column of the kinds of warnings that a run gave.
+pub(crate) const NOTICED: &str = "warnings";
+
+/// The names of kinds of warnings, each once, as a table has them in one cell; notes are not among them.
+pub(crate) fn in_a_cell(kinds: &[NoticeKind]) -> String {
+    let mut names: Vec<&str> = Vec::new();
+    for kind in kinds.iter().filter(|kind| kind.severity() != Severity::Note) {
+        if !names.contains(&kind.name()) {
+            names.push(kind.name());
+        }
+    }
+    names.join(";")
+}
+
+/// The kinds that such a cell names; one that this version does not know is left out.
+pub(crate) fn of_a_cell(cell: &str) -> impl Iterator<Item = NoticeKind> + use<'_> {
+    cell.split(';').filter_map(NoticeKind::from_name)
+}
+
+/// A notice of a kind that several runs gave.
+pub(crate) fn of_runs(kind: NoticeKind, gave: u64, runs: usize, first: &str) -> Notice {
+    Notice::new(kind, format!("{gave} of {runs} runs, the first of them {first}"))
+}
 
 /// What the runs of an analysis are called in messages.
 #[derive(Clone, Copy)]
@@ -520,18 +545,16 @@ impl InWords<'_> {
             noticed.iter().for_each(|noticed| tally(&mut kinds, &noticed.kind, case));
         }
         let told = |(kind, count, case): (NoticeKind, u64, &Case)| {
-            let (runs, first) = (ran.len(), self.case(case));
             let mut all = ran.iter().flat_map(|ran| &ran.noticed);
             let is_severe = all.any(|noticed| noticed.kind == kind && noticed.is_severe);
-            let message = format!("{count} of {runs} runs, the first of them {first}");
-            Notice::new(kind, message).severe_where(is_severe)
+            of_runs(kind, count, ran.len(), &self.case(case)).severe_where(is_severe)
         };
         kinds.into_iter().map(told).collect()
     }
 }
 
 /// Counts what was seen, each kind with the number of times and where it was first.
-pub(super) fn tally<K, Q, F>(seen: &mut Vec<(K, u64, F)>, kind: &Q, at: F)
+pub(crate) fn tally<K, Q, F>(seen: &mut Vec<(K, u64, F)>, kind: &Q, at: F)
 where
     K: Borrow<Q>,
     Q: ToOwned<Owned = K> + PartialEq + ?Sized,
@@ -567,7 +590,7 @@ pub(crate) mod tests {
         if !TAMPERED.get().is_some_and(|which| which(case)) {
             return verdict;
         }
-        let what = "demands error of peak_sliding_displacement_m".to_owned();
+        let what = "demands error of peak sliding displacement".to_owned();
         let defects = format!("{what} 5.0e-1 above the bound 1.0e-10");
         Verdict { holds: false, largest: Some((what, 0.5)), defects, ..verdict }
     }

@@ -276,16 +276,15 @@ mod tests {
         let verdict = |error: f64| Verdict {
             same: true,
             holds: error < 1e-10,
-            largest: Some(("demands error of sliding_path_m".to_owned(), error)),
-            defects: format!("demands error of sliding_path_m {error:.1e} above the bound 1.0e-10"),
+            largest: Some(("demands error of sliding path".to_owned(), error)),
+            defects: format!("demands error of sliding path {error:.1e} above the bound 1.0e-10"),
             ..Verdict::default()
         };
         let mut certified = Certified::of(2640);
         for (run, error) in [("run 3", 1e-14), ("run 17", 2e-13), ("run 20", 0.0)] {
             certified.add(run, &Verdict { defects: String::new(), ..verdict(error) });
         }
-        let said =
-            "3 of 2640 runs certified; worst: run 17 (demands error of sliding_path_m, 2e-13)";
+        let said = "3 of 2640 runs certified; worst: run 17 (demands error of sliding path, 2e-13)";
         assert_eq!(certified.to_string(), said);
         assert_eq!(certified.notice(), None);
         certified.add("run 21", &verdict(f64::NAN));
@@ -294,7 +293,7 @@ mod tests {
         let notice = certified.notice().expect("a notice");
         let kind = (notice.kind, notice.severity());
         assert_eq!(kind, (NoticeKind::CheckFailed, Severity::Severe), "{notice:?}");
-        let said = "CHECK FAILED for 2 of 5 certified runs, the first run 21: demands error of sliding_path_m";
+        let said = "CHECK FAILED for 2 of 5 certified runs, the first run 21: demands error of sliding path";
         assert!(notice.message.starts_with(said), "{notice:?}");
     }
 }

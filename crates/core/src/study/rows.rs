@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::cases::{Case, CaseRun, Cases, Noticed, Runs};
+use super::cases::{Case, CaseRun, Cases, Noticed, Runs, in_a_cell};
 use super::certified::RunKind;
 use super::engine::Engine;
 use super::kept::InNumbers;
@@ -61,8 +61,7 @@ impl Row {
     /// The names of its kinds of warnings, joined by `;`.
     #[must_use]
     pub fn kinds(&self) -> String {
-        let names: Vec<&str> = self.warnings.iter().map(|kind| kind.name()).collect();
-        names.join(";")
+        in_a_cell(&self.warnings)
     }
 }
 

@@ -269,7 +269,7 @@ fn of_peaks(
     c.of("peak_sliding_velocity_m_per_s");
     c.within(d.peak_sliding_velocity_m_per_s, own.peak(Output::Velocity), near);
     let near = force_n / model.block().mass_kg;
-    c.of("peak_block_acceleration_m_per_s2");
+    c.of("block.peak_acceleration_m_per_s2");
     c.within(d.peak_block_acceleration_m_per_s2, own.peak(Output::Block), near);
     for (name, printed, coefficient, output) in [
         ("peak_base_shear_n", d.peak_base_shear_n, d.base_shear_coefficient, Output::BaseShear),
@@ -448,17 +448,17 @@ fn of_stop(
             let touched = of(EventKind::Contact).fold(0.0, |p: f64, e| p.max(e.speed));
             let speed = if rigid { own.events.impacts } else { touched };
             let force_n = own.peaks[own.outputs.of_stop()];
-            c.of("stop_contact_count");
+            c.of("stop.contact_count");
             c.same(stop.contact_count == of(EventKind::Contact).count() as u64);
-            c.of("stop_impact_count");
+            c.of("stop.impact_count");
             c.same(stop.impact_count == of(EventKind::Impact).count() as u64);
-            c.of("stop_peak_force_n");
+            c.of("stop.peak_force_n");
             c.number(stop.peak_force_n, force_n, rounding.force_n, force_n);
             let near = rounding.velocity_m_per_s;
-            c.of("stop_peak_impact_speed_m_per_s");
+            c.of("stop.peak_impact_speed_m_per_s");
             c.number(stop.peak_impact_speed_m_per_s, speed, near, speed);
             let own = own.totals.contact_s;
-            c.of("stop_contact_time_s");
+            c.of("stop.contact_time_s");
             c.number(stop.contact_time_s, own, instants_s, own);
         }
         (printed, own) => c.same(printed.is_none() && own.is_none()),

@@ -606,13 +606,19 @@ impl DemandColumn {
         }
     }
 
+    /// What a sentence calls it: `storey 2 peak drift`.
+    #[must_use]
+    pub fn words(&self) -> String {
+        match self.demand.of.part() {
+            None => self.demand.words.to_owned(),
+            Some(of) => format!("{of} {} {}", self.part, self.demand.words),
+        }
+    }
+
     /// Its title: `Storey 2 peak drift`.
     #[must_use]
     pub fn title(&self) -> String {
-        let words = match self.demand.of.part() {
-            None => self.demand.words.to_owned(),
-            Some(of) => format!("{of} {} {}", self.part, self.demand.words),
-        };
+        let words = self.words();
         let mut letters = words.chars();
         letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
     }

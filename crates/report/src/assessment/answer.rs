@@ -85,10 +85,12 @@ pub fn sheet(answer: &Answer, display: DisplayUnits) -> Sheet {
         }
         .sheet(),
         Results::Fragility { demand, limit, confidence, curves, .. } => {
-            match fragility(name, demand, *limit, *confidence, curves, display) {
+            let mut sheet = match fragility(name, demand, *limit, *confidence, curves, display) {
                 Fragility::One(report) => report.sheet(),
                 Fragility::By(family) => family.sheet(),
-            }
+            };
+            sheet.warnings.extend(warnings.iter().cloned());
+            sheet
         }
     };
     // A suite's own records have the factors of its runs.

@@ -651,7 +651,7 @@ impl HistoriesReport<'_> {
             };
             let all: Vec<(&str, Vec<Notice>)> =
                 records.iter().map(|on| (&on.record[..], own(on))).collect();
-            condensed(all.iter().map(|(name, notices)| (*name, &notices[..])))
+            condensed("records", all.iter().map(|(name, notices)| (*name, &notices[..])))
         };
         told(&farthest, true).into_iter().chain(told(records, false)).collect()
     }

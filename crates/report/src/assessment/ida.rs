@@ -297,7 +297,7 @@ impl IdaReport<'_> {
                 let curve = fragility.curve();
                 vec![format!(
                     "Lognormal capacity by maximum likelihood: median {} {}, dispersion {}. \
-                     `slipstick fragility` on ida.csv gives its certainty.",
+                     slipstick fragility on ida.csv gives its certainty.",
                     cell(im.of(curve.median)),
                     im.symbol,
                     cell(curve.dispersion)

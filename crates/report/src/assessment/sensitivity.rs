@@ -190,7 +190,7 @@ impl SensitivityReport<'_> {
             };
             let change = if all.iter().any(|d| d.events_change) { "events change" } else { "" };
             rows.push(vec![
-                key.path.clone(),
+                path_words(&key.path),
                 format!("{} {}", compact(key.value), key.unit).trim_end().to_owned(),
                 cell(unit.of(values(&|d| d.derivative))),
                 cell(unit.of(values(&|d| d.error))),

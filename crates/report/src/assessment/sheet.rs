@@ -16,6 +16,7 @@ use crate::json::{joined, pretty};
 use crate::laboratory::text::{aligned, field, wrapped};
 use crate::markup::Markup;
 use crate::markup::shortened;
+use crate::number::typeset_sentence;
 use crate::report::{FileNote, Provenance};
 use crate::summary::keys::{certified_keys, listed, suite};
 use crate::view;
@@ -178,7 +179,7 @@ impl Sheet {
             out.raw("<li>").element("strong", notice.kind.words()).text(format!(
                 " ({label}): {}. The first: {}",
                 names.join(", "),
-                self.display.sentence(&notice.message)
+                typeset_sentence(&self.display.sentence(&notice.message))
             ));
             out.raw("</li>\n");
         }

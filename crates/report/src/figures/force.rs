@@ -186,7 +186,7 @@ pub fn demand(scene: &Scene) -> Option<Drawn> {
     };
     let kinetic = if by_speed { "of its speed, μₖ(v) N" } else { "±μₖN (dotted)" };
     let caption = format!(
-        "Friction force T against its bounds. On white the block sticks and T is the demand: it may \
+        "Friction force T against its bounds. Outside the grey the block sticks and T is the demand: it may \
          reach the static bounds −μₛ⁺N and μₛ⁻N (dashed) but never pass them; there the block lets \
          go. On grey it slides and T is the kinetic friction {kinetic}.{varies}"
     );

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 use slipstick::input::Channel;
+use slipstick::laboratory::anderson::in_words;
 use slipstick::laboratory::compare::{Compared, Comparison, Metric, Metrics, Within};
 use slipstick::model::Model;
 use slipstick::response::{Method, Mode};
@@ -259,7 +260,7 @@ impl CompareReport<'_> {
         let heads = scored.iter().map(|(name, _)| name.clone());
         let row = |(i, (name, _)): (usize, &(&str, f64))| {
             let cells = scored.iter().map(|(_, a)| format!("{:.1}", a.scores()[i].1));
-            core::iter::once(name.replace('_', " ")).chain(cells).collect()
+            core::iter::once(in_words(name)).chain(cells).collect()
         };
         let heads = core::iter::once(String::new()).chain(heads).collect();
         Some(core::iter::once(heads).chain(first.scores().iter().enumerate().map(row)).collect())

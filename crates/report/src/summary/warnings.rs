@@ -65,7 +65,7 @@ fn check_failed(response: &Response, certificate: &Certificate) -> Option<Notice
     ))
 }
 
-/// Passing the gap, at the first instant known to be beyond it.
+/// Exceeding the gap, at the first instant known to be beyond it.
 fn gap_exceeded(inputs: &SummaryInputs) -> Option<Notice> {
     let gap_m = inputs.model.slider().gap_m()?;
     let demands = &inputs.response.demands;

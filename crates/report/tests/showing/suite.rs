@@ -66,7 +66,7 @@ fn a_run_that_is_not_confirmed_leaves_the_mean() {
     let peak = right.shape.find("peak_sliding_displacement_m").expect("a demand").1;
     let mut wrong = right.clone();
     let broken = &mut wrong.models[0].records[3].runs[0];
-    let demand = "demands error of peak_sliding_displacement_m";
+    let demand = "demands error of peak sliding displacement";
     let CertifiedRun { mut demands, axes, floor_spectra, .. } = broken.clone().expect("a run");
     demands.peak_sliding_displacement_m *= 100.0;
     let (defect, largest) = (Some(demand.to_owned()), Some((demand.to_owned(), 0.99)));
@@ -81,13 +81,10 @@ fn a_run_that_is_not_confirmed_leaves_the_mean() {
     assert!(!calm.failed && calm.complete && red.failed && !red.complete);
     assert!(calm.to_text().contains("9 of 9 runs certified; worst: r"), "{}", calm.to_text());
     let said =
-        "CHECK FAILED for 1 of 9 runs, the first r3: demands error of peak_sliding_displacement_m";
+        "CHECK FAILED for 1 of 9 runs, the first r3: demands error of peak sliding displacement";
     assert!(red.first.as_ref().is_some_and(|(_, said_first)| said_first.contains(said)));
     let text = red.to_text();
-    assert!(
-        text.contains("worst: r3 (demands error of peak_sliding_displacement_m, 1e0)"),
-        "{text}"
-    );
+    assert!(text.contains("worst: r3 (demands error of peak sliding displacement, 1e0)"), "{text}");
     let failed: Vec<_> =
         red.warnings.iter().filter(|n| n.kind == NoticeKind::CheckFailed).collect();
     let [notice] = failed[..] else { panic!("one notice: {:?}", red.warnings) };

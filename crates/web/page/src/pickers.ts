@@ -12,7 +12,7 @@ export interface Known {
 }
 
 const option = (value: string, text: string) => h("option", { value }, text);
-const withUnit = (text: string, symbol: string | undefined) => (symbol ? `${text} (${symbol})` : text);
+export const withUnit = (text: string, symbol: string | undefined) => (symbol ? `${text} (${symbol})` : text);
 
 /** Writes a text into a field as a person would. */
 function write(into: Entry, text: string): void {
@@ -22,20 +22,18 @@ function write(into: Entry, text: string): void {
 
 /** What stands beside a field; nothing where it needs no help. */
 export function picker({ name, label, takes }: FormField, into: Entry, known: Known): HTMLElement | "" {
-  if (name === "demand") return demand(label, takes === "many", into, known.demands);
+  if (name === "demand" && takes === "many") return demand(label, into, known.demands);
   if (name === "measure") return measure(label, into);
   if (name === "over" || name === "vary") return range(label, takes === "many", into, known);
   return "";
 }
 
-function demand(label: string, many: boolean, into: Entry, demands: Choice[]): HTMLElement {
+function demand(label: string, into: Entry, demands: Choice[]): HTMLElement {
   const select = h("select", { "aria-label": `${label}: choose` }, option("", "Choose a demand"), ...demands.map(({ name, title, unit }) => option(name, withUnit(title, unit.symbol))));
-  select.value = into.value;
-  if (select.selectedIndex < 0) select.value = "";
   select.addEventListener("change", (event) => {
     event.stopPropagation();
-    if (select.value !== "") write(into, many && into.value.trim() ? `${into.value.trim()}\n${select.value}` : select.value);
-    if (many) select.value = "";
+    if (select.value !== "") write(into, into.value.trim() ? `${into.value.trim()}\n${select.value}` : select.value);
+    select.value = "";
   });
   return h("div", { class: "picker" }, select);
 }

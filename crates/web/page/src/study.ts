@@ -3,9 +3,8 @@
 import { ModuleError, Pool } from "./desk";
 import { download, h } from "./dom";
 import { Explorer } from "./explore";
-import { hand } from "./exports";
+import { handStudy, type Planned, rowsOf } from "./planned";
 import { type Page, Progress, Result, sheetElement, subject, type Tab } from "./tab";
-import type { Sheet } from "./types";
 
 export class StudyTab implements Tab {
   readonly id = "study";
@@ -34,7 +33,7 @@ export class StudyTab implements Tab {
       this.update();
       page.changed();
     });
-    this.result.show(undefined, h("p", { class: "card empty" }, "A study runs the model of this page, whatever its plan calls it, on the records on this page."));
+    this.result.show(undefined, h("p", { class: "card empty" }, "A study runs the model of this page, whatever its plan calls it, on the records on this page that its plan names, else on the model's own motion."));
   }
 
   load(text: string): void {
@@ -78,12 +77,12 @@ export class StudyTab implements Tab {
       const names = this.page.records().map((record) => record.name);
       // As they are now.
       const files = new Map(this.page.desk.records);
-      const of: [string, string, string[]] = [this.text.value, this.page.text(), names];
-      const sheet = await this.pool.call("study", ...of, await this.rows(...of), this.page.display());
+      const of: Planned = [this.text.value, this.page.text(), names];
+      const sheet = await this.pool.call("study", ...of, await rowsOf(this.pool, of, (done, count) => this.progress.show(done, count)), this.page.display());
       const runs = new Explorer(sheet.runs, this.id, this.page.dark, "a click shows the run by itself", (_, row) => void this.take(of, row), [/^level$/, /^peak_sliding_displacement_m$/]);
       const { element, views } = sheetElement(sheet, this.page.dark);
       this.views = [...views, runs];
-      this.result.show(asked, element, h("div", { class: "card pad" }, runs.element), h("div", { class: "actions" }, h("button", { type: "button", onclick: () => this.everything(of, sheet, files) }, "Everything (ZIP)"), h("button", { type: "button", onclick: () => download("study-report.html", sheet.html, "text/html") }, "report.html")));
+      this.result.show(asked, element, h("div", { class: "card pad" }, runs.element), h("div", { class: "actions" }, h("button", { type: "button", onclick: () => handStudy("study.zip", of, sheet, files) }, "Everything (ZIP)"), h("button", { type: "button", onclick: () => download("study-report.html", sheet.html, "text/html") }, "report.html")));
       this.update();
       this.page.say(`The study is done. ${sheet.verdict[0] ?? sheet.line}`);
     } catch (error) {
@@ -103,32 +102,11 @@ export class StudyTab implements Tab {
     }
   }
 
-  /** The plan with its model by the name that the plan calls it, and its records where it looks for them. */
-  private everything([plan, text]: [plan: string, text: string, names: string[]], sheet: Sheet, files: Map<string, Uint8Array>): void {
-    const model = /^\s*model\s*=\s*"([^"]*)"/m.exec(plan)?.[1] ?? "model.toml";
-    const records = sheet.records.map(({ path, file }) => [path, files.get(file) ?? new Uint8Array()]);
-    hand("study.zip", sheet.commands, [model, text], files, { "plan.toml": plan, ...Object.fromEntries(records) }, { "report.html": sheet.html }, "page/command.txt");
-  }
-
-  private async take(of: [plan: string, text: string, names: string[]], run: number): Promise<void> {
+  private async take(of: Planned, run: number): Promise<void> {
     try {
       this.page.load(await this.page.desk.helper.call("studyRun", ...of, run));
     } catch (error) {
       if (error instanceof ModuleError) this.page.fault(error.fault);
     }
-  }
-
-  /** All rows of a study, in slices on several workers. */
-  private async rows(...of: [plan: string, text: string, names: string[]]): Promise<Float64Array> {
-    const [count, width] = await this.pool.call("studySize", ...of);
-    const rows = new Float64Array(count * width);
-    const size = Math.max(1, Math.min(250, Math.ceil(count / (8 * this.pool.size))));
-    let done = 0;
-    await this.pool.slices(count, size, async (helper, from, to) => {
-      rows.set(await helper.call("studyRows", ...of, from, to), from * width);
-      done += to - from;
-      this.progress.show(done, count);
-    });
-    return rows;
   }
 }

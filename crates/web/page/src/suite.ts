@@ -4,16 +4,25 @@ import { Ended, Helper, ModuleError } from "./desk";
 import { download, fill, h } from "./dom";
 import { hand } from "./exports";
 import { type Page, Progress, Result, sheetElement, subject, type Tab, value } from "./tab";
-import { picker } from "./pickers";
+import { picker, withUnit } from "./pickers";
 import { Explorer } from "./explore";
 import type { Workbench } from "./workbench";
-import type { FormField, RunTable, Setting, Sheet, State } from "./types";
+import type { Choice, FormField, RunTable, Setting, Sheet, State } from "./types";
 
 /** What is typed or chosen in the form for a field. */
 type Entry = HTMLInputElement | HTMLSelectElement | HTMLTextAreaElement;
 
-function entry({ name, takes, words, default: usual, start }: FormField): Entry {
+/** Whether a field is one demand, which is chosen by its name. */
+const isDemand = ({ name, takes }: FormField) => name === "demand" && takes === "one";
+
+function entry(field: FormField, demands: Choice[]): Entry {
+  const { name, takes, words, default: usual, start } = field;
   const typed = { name, autocomplete: "off", spellcheck: "false" };
+  if (isDemand(field)) {
+    const select = h("select", { name }, ...demands.map((of) => h("option", { value: of.name }, withUnit(of.title, of.unit.symbol))));
+    setValue(select, start);
+    return select;
+  }
   switch (takes) {
     case "choice":
       return h("select", { name }, ...(usual ? [] : [h("option", { value: "" }, "as it comes")]), ...words.map((word) => h("option", { value: word, selected: word === start }, word)));
@@ -36,6 +45,8 @@ function valueOf(input: Entry): string {
 
 function setValue(input: Entry, text: string): void {
   if (input instanceof HTMLInputElement && input.type === "checkbox") input.checked = text !== "";
+  // What an address says and the list lacks stands in it too: what it is of may come, or is refused by its name.
+  else if (input instanceof HTMLSelectElement && ![...input.options].some((option) => option.value === text)) input.append(h("option", { value: text, selected: true }, text));
   else input.value = text;
 }
 
@@ -51,7 +62,10 @@ export class SuiteTab implements Tab {
   private wanted: Record<string, string> = {};
   private readonly go = h("button", { type: "submit", class: "main", disabled: true }, "Run");
   private helper: Helper | undefined;
-  private opened = false;
+  /** Model and units that the form is of. */
+  private formOf: string | undefined;
+  /** What the form says, which is often the same for another model. */
+  private made = "";
   /** The field whose value cannot be, and what says so. */
   private wrong: [Entry, HTMLElement] | undefined;
 
@@ -79,17 +93,38 @@ export class SuiteTab implements Tab {
     this.result.show(undefined, h("p", { class: "card empty" }, "Press Run: the records are analysed in a worker of their own, and the page stays free."));
   }
 
-  /** Makes the form; what need not be said stands folded below. */
+  /** Makes the form of the model, which stays where it is of another; what need not be said stands folded below. */
   private async build(): Promise<void> {
-    const { about, fields, demands } = await this.page.desk.helper.call("form", this.id, this.page.text(), this.page.display());
-    this.fields = fields.map((field) => [field, entry(field)]);
-    const label = ([field, input]: [FormField, Entry]) => h("div", {}, h("label", { class: "field" }, h("span", {}, field.label), input, h("small", { class: "drop-hint" }, field.about)), picker(field, input, { demands, state: this.page.state }));
+    const [text, display] = [this.page.text(), this.page.display()];
+    const of = this.asksFor;
+    this.formOf = of;
+    let form;
+    try {
+      form = await this.page.desk.helper.call("form", this.id, text, display);
+    } catch {
+      // It is asked for again where the tab is opened again.
+      if (this.formOf === of) this.formOf = undefined;
+      return;
+    }
+    const made = JSON.stringify(form);
+    if (this.formOf !== of || this.made === made) return;
+    this.made = made;
+    this.wanted = this.settings();
+    const { about, fields, demands } = form;
+    this.right();
+    this.fields = fields.map((field) => [field, entry(field, demands)]);
+    const label = ([field, input]: [FormField, Entry]) => h("div", {}, h("label", { class: "field" }, h("span", {}, field.label), input, isDemand(field) ? "" : h("small", { class: "drop-hint" }, field.about)), picker(field, input, { demands, state: this.page.state }));
     const [first, more] = [this.fields.filter(([field]) => field.start), this.fields.filter(([field]) => !field.start)];
     fill(this.asked, h("p", { class: "drop-hint" }, about), ...first.map(label), more.length > 0 ? h("details", { class: "fold" }, h("summary", {}, "More"), ...more.map(label)) : "");
     this.go.disabled = false;
     this.restore(this.wanted);
     this.update();
     if (!this.element.hidden) this.stand();
+  }
+
+  /** What the form is asked for of. */
+  private get asksFor(): string {
+    return JSON.stringify([this.page.text(), this.page.display()]);
   }
 
   private get subject(): string {
@@ -149,10 +184,8 @@ export class SuiteTab implements Tab {
   open(): void {
     const state = this.page.state();
     if (!state) return;
-    if (!this.opened) {
-      this.opened = true;
-      void this.build();
-    }
+    // What there is to choose from is of the model, in the units of the page.
+    if (this.formOf !== this.asksFor) void this.build();
     this.update();
     this.stand();
   }

@@ -4,6 +4,7 @@ import { labelOf } from "./controls";
 import { ModuleError, Pool } from "./desk";
 import { fill, h } from "./dom";
 import { FigureView } from "./figure";
+import { handStudy, type Planned, rowsOf } from "./planned";
 import { type Page, Progress, Result, subject, type Tab, value } from "./tab";
 import type { AxisData, FigureData, SeriesData, Setting, State, Unit } from "./types";
 
@@ -134,6 +135,7 @@ export class SweepTab implements Tab {
       this.result.show(this.of, this.charts);
       this.update();
       this.show(rows, state, input.symbol ?? "", input.in_si ?? 1, input.value ?? 0, input.path);
+      this.charts.append(h("div", { class: "actions" }, h("button", { type: "button", onclick: () => void this.everything(text, over) }, "Everything (ZIP)")));
       this.page.say(`The sweep of ${labelOf(input.path)} is done: ${count} runs.`);
     } catch (error) {
       this.pool.stop();
@@ -171,6 +173,22 @@ export class SweepTab implements Tab {
     const storeys = state.structure.storeyMasses_kg.length > 0;
     one("sweep-displacement", "Sliding displacement", length, [["peak", 1, FIRST], ["residual, in size", 2, SECOND]]);
     one("sweep-acceleration", "Peak accelerations", acceleration, [["block", 3, FIRST], ...(storeys ? [["roof", 4, SECOND] as [string, number, Style]] : [])]);
+  }
+
+  /** The sweep as the command runs it: a study of the model's own motion. */
+  private async everything(text: string, over: string): Promise<void> {
+    // As they are now.
+    const files = new Map(this.page.desk.records);
+    const pool = new Pool(this.page.desk.engine, files);
+    try {
+      const of: Planned = [await pool.call("plan", "sweep", text, [["over", over]]), text, []];
+      const rows = await rowsOf(pool, of, () => {});
+      handStudy("sweep.zip", of, await pool.call("study", ...of, rows, this.page.display()), files);
+    } catch (error) {
+      if (error instanceof ModuleError) this.page.fault(error.fault);
+    } finally {
+      pool.stop();
+    }
   }
 
   /** Takes a value of the axis over into the model. */

@@ -136,7 +136,7 @@ export function sheetElement(sheet: Sheet, dark: () => boolean): { element: HTML
           "table",
           {},
           h("thead", {}, h("tr", {}, ...head.map((text, i) => h("th", { scope: "col", class: i > 0 ? "number" : "" }, text)))),
-          h("tbody", {}, ...body.map((row) => h("tr", {}, ...row.map((text, i) => (i === 0 ? h("th", { scope: "row" }, text) : cell(text, i)))))),
+          h("tbody", {}, ...body.map((row) => h("tr", {}, ...row.map((text, i) => (i === 0 ? h("th", { scope: "row", class: text.startsWith("  ") ? "sub" : "" }, text.trim()) : cell(text, i)))))),
         ),
       ),
     ];

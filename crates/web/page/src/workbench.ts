@@ -23,8 +23,8 @@ export class Workbench {
   readonly element: HTMLElement;
   private readonly chosen = new Map<string, boolean>();
   private readonly period = h("input", { type: "text", value: "1 s", "aria-label": "Period of the spectral acceleration" });
-  private readonly body = h("tbody", {});
-  private readonly saHead = h("th", { scope: "col", class: "number" }, "Sa");
+  private readonly body = h("tbody", { role: "rowgroup" });
+  private readonly saHead = h("th", { scope: "col", role: "columnheader", class: "number" }, "Sa");
   private readonly all = h("input", { type: "checkbox", "aria-label": "All records" });
   private readonly known = new Map<string, Surveyed | string>();
   private level: Level = { measure: "PGA", level: "" };
@@ -43,8 +43,8 @@ export class Workbench {
       this.draw();
       this.onchoice();
     });
-    const head = (text: string, number: boolean) => h("th", { scope: "col", class: number ? "number" : "" }, text);
-    // What is done to a record and what was noticed of it come first: the rest may need scrolling.
+    // Laid out as a grid it is a table all the same.
+    const head = (text: string, number: boolean) => h("th", { scope: "col", role: "columnheader", class: number ? "number" : "" }, text);
     const heads = [head("Record", false), head("Factor", true), head("Notices", true), head("PGA", true), head("PGV", true)];
     this.element = h(
       "fieldset",
@@ -54,7 +54,7 @@ export class Workbench {
       h(
         "div",
         { class: "table-scroll", tabindex: 0, role: "region", "aria-label": "Records" },
-        h("table", {}, h("thead", {}, h("tr", {}, h("th", { scope: "col" }, this.all), ...heads, this.saHead)), this.body),
+        h("table", { role: "table" }, h("thead", { role: "rowgroup" }, h("tr", { role: "row" }, h("th", { scope: "col", role: "columnheader" }, this.all), ...heads, this.saHead)), this.body),
       ),
     );
   }
@@ -144,12 +144,12 @@ export class Workbench {
         const told = typeof found === "string" ? [found] : (found?.notices ?? []);
         return h(
           "tr",
-          {},
-          h("td", {}, h("label", { class: "switch" }, box, h("span", { class: "hidden" }, label))),
-          h("th", { scope: "row" }, label),
-          h("td", { class: "number" }, cells[0]!),
-          h("td", { class: "told" }, told.length > 0 ? h("details", {}, h("summary", {}, String(told.length)), ...told.map((text) => h("p", {}, text))) : ""),
-          ...cells.slice(1).map((text) => h("td", { class: "number" }, text)),
+          { role: "row" },
+          h("td", { role: "cell" }, h("label", { class: "switch" }, box, h("span", { class: "hidden" }, label))),
+          h("th", { scope: "row", role: "rowheader" }, label),
+          h("td", { role: "cell", class: "number" }, cells[0]!),
+          h("td", { role: "cell", class: "told" }, told.length > 0 ? h("details", {}, h("summary", {}, String(told.length)), ...told.map((text) => h("p", {}, text))) : ""),
+          ...cells.slice(1).map((text) => h("td", { role: "cell", class: "number" }, text)),
         );
       }),
     );

@@ -126,6 +126,16 @@ async function ofEachKind(command, root, folder) {
   return reports;
 }
 
+/** What of a printed page is broken: hashes of files that do not stand in one line. */
+const broken = () => {
+  const lines = (cell) => {
+    const range = document.createRange();
+    range.selectNodeContents(cell);
+    return new Set([...range.getClientRects()].map(({ top }) => Math.round(top))).size;
+  };
+  return [...document.querySelectorAll("td.hash")].filter((cell) => lines(cell) > 1).map((cell) => cell.textContent);
+};
+
 /** Breaches of WCAG AA on a page. */
 async function violations(page, axe) {
   await page.addScriptTag({ path: axe }).catch(async () => page.evaluate(readFileSync(axe, "utf8")));
@@ -170,6 +180,7 @@ export function report(test, browser, axe, root) {
       await page.emulateMedia({ media: "print" });
       await page.setViewportSize({ width: 680, height: 1000 });
       assert.deepEqual(await page.evaluate(cut), [], "in print");
+      assert.deepEqual(await page.evaluate(broken), [], "in print");
       const pages = await printed(page);
       assert.ok(pages >= 4 && pages <= PAGES, `${pages} pages`);
     } finally {

@@ -104,7 +104,12 @@ export function runs(test, on) {
       await panel.locator("[name=measure]").waitFor();
       await panel.getByLabel("Measure: choose").selectOption("Sa");
       assert.equal(await panel.locator("[name=measure]").inputValue(), "Sa(1 s)");
-      await panel.getByLabel("Demand: choose").selectOption("block.peak_acceleration_m_per_s2");
+      // The field says the name of what it is of, not the key.
+      const demand = panel.locator("[name=demand]");
+      const named = () => demand.evaluate((select) => select.selectedOptions[0].textContent);
+      assert.match(await named(), /^Peak sliding displacement \(.*m\)$/);
+      await demand.selectOption("block.peak_acceleration_m_per_s2");
+      assert.match(await named(), /^Block peak acceleration \(m\/s²\)$/);
       assert.equal(await panel.locator("[name=demand]").inputValue(), "block.peak_acceleration_m_per_s2");
       await panel.getByText("More", { exact: true }).click();
       await panel.getByLabel("Vary: key").selectOption("slider.radius");

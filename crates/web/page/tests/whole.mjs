@@ -46,6 +46,14 @@ function same(folder, names) {
   }
 }
 
+/** That the report of a study is the command's, byte for byte but for the certificates of some runs, which only the command makes. */
+function sameStudy(folder) {
+  const report = readdirSync(join(folder, "out")).find((name) => name.endsWith(".html"));
+  const told = (file) => readFileSync(file, "utf8").replace(/<li>(Certificates: |[^<]* run again alone)[^<]*<\/li>/g, "");
+  assert.equal(told(join(folder, "page/report.html")), told(join(folder, "out", report)));
+  return told(join(folder, "page/report.html"));
+}
+
 export function whole(test, on, root) {
   const command = process.env.SLIPSTICK_COMMAND;
   const skipped = "skipped: SLIPSTICK_COMMAND names no command";
@@ -181,6 +189,8 @@ export function whole(test, on, root) {
   test("the ZIP of study runs as it stands, and tells the same of the same files, warnings among it", () =>
     on(async (page) => {
       if (!command) return skipped;
+      await page.getByLabel("Units", { exact: true }).selectOption("us");
+      await settled(page);
       await page.locator("#tab-study").click();
       const panel = page.locator("#panel-study");
       const plan = panel.locator("textarea");
@@ -191,11 +201,38 @@ export function whole(test, on, root) {
       const out = temporary();
       try {
         await repeated(got, command, out.folder);
-        const report = readdirSync(join(out.folder, "out")).find((name) => name.endsWith(".html"));
-        // Certificates of some runs only the command makes.
-        const told = (file) => readFileSync(file, "utf8").replace(/<li>(Certificates: |[^<]* run again alone)[^<]*<\/li>/g, "");
-        assert.equal(told(join(out.folder, "page/report.html")), told(join(out.folder, "out", report)));
-        assert.match(told(join(out.folder, "page/report.html")), /the first of them run \d/);
+        assert.match(sameStudy(out.folder), /the first of them run \d/);
+      } finally {
+        out.remove();
+      }
+    }, { acceptDownloads: true }));
+
+  test("the ZIP of sweep is a study of the model's own motion, whose runs are those of the pictures", () =>
+    on(async (page) => {
+      if (!command) return skipped;
+      await page.locator("#tab-sweep").click();
+      const panel = page.locator("#panel-sweep");
+      await panel.locator(".figure-plot svg").first().waitFor();
+      await panel.getByLabel("Number of runs").fill("20");
+      await panel.locator("button.main").click();
+      await panel.locator(".progress").waitFor({ state: "hidden" });
+      const [got] = await Promise.all([page.waitForEvent("download"), panel.getByRole("button", { name: "Everything (ZIP)" }).click()]);
+      const out = temporary();
+      try {
+        await repeated(got, command, out.folder);
+        assert.match(sameStudy(out.folder), /20 runs/);
+        const of = ["plan.toml", "model.toml"].map((name) => readFileSync(join(out.folder, name), "utf8"));
+        const [swept, studied] = await page.evaluate(async ([plan, text]) => {
+          const { pool } = globalThis.slipstick.study;
+          const rows = await pool.call("studyRows", plan, text, [], 0, 20);
+          const { runs } = await pool.call("study", plan, text, [], rows, "si");
+          const [from, to] = ["From", "To"].map((label) => [...document.querySelectorAll("#panel-sweep label")].find((one) => one.textContent === label).querySelector("input").value);
+          const sweep = await pool.call("sweep", text, `slider.kinetic_friction=${from}..${to}:20`, 0, 20);
+          pool.stop();
+          return [[...sweep].filter((_, i) => i % 6 === 1), runs[0].columns.find(({ name }) => name === "peak_sliding_displacement_m").values];
+        }, of);
+        assert.deepEqual(studied, swept);
+        assert.equal(new Set(swept).size, 20);
       } finally {
         out.remove();
       }

@@ -109,6 +109,16 @@ impl<'a> Columns<'a> {
             .then(|| (name, Records::numbered((0..pairs.len()).map(key))))
     }
 
+    /// A cell of a column of texts.
+    pub(super) fn text(self, name: &str, row: usize) -> Option<&'a str> {
+        Some(self.table.texts_of(name)?.get(row)?)
+    }
+
+    /// What the run of a row is called: its record where the table says it.
+    pub(super) fn run(self, row: usize) -> String {
+        self.text("record", row).map_or_else(|| format!("row {row}"), str::to_owned)
+    }
+
     /// The first cell of a column of texts.
     pub(super) fn first_text(self, name: &str) -> Option<String> {
         self.table.texts_of(name)?.first().filter(|text| !text.is_empty()).cloned()

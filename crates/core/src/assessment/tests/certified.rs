@@ -158,7 +158,7 @@ fn refused(certified: &Certified) {
     assert!(first.run.starts_with("r4"), "{first:?}");
     let notice = certified.notice().unwrap();
     assert_eq!(notice.severity(), Severity::Severe, "{notice:?}");
-    for part in ["CHECK FAILED for ", &first.run, "demands error of peak_sliding_displacement_m"] {
+    for part in ["CHECK FAILED for ", &first.run, "demands error of peak sliding displacement"] {
         assert!(notice.message.contains(part), "{part} in {notice:?}");
     }
 }

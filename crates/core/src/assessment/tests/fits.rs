@@ -6,9 +6,10 @@ use crate::assessment::censored::{Fit, Known, Observation};
 use crate::assessment::fragility::{
     Capacity, Certainty, CloudPoint, Fragility, Lognormal, Stripe, test_counts, test_normality,
 };
-use crate::assessment::observed::{FitTo, FragilityRequest, run_fragility};
+use crate::assessment::observed::{FitTo, FragilityRequest, noticed, run_fragility};
 use crate::assessment::proportion::Proportion;
 use crate::error::FitError;
+use crate::notice::{Notice, NoticeKind, Severity};
 use crate::numerics::distribution::{
     beta_quantile, chi_squared_tail, ln_normal_cdf, normal_cdf, normal_hazard, normal_quantile,
 };
@@ -292,6 +293,39 @@ fn peer_clustered_capacities_and_cloud_agree_with_scipy() {
     let fragility =
         Fragility::of_cloud_by_record(&points, number(&case["limit"]), &records).unwrap();
     check_clustered(&fragility, case, "cloud", 1e-6);
+}
+
+/// What runs gave notice of is told of the rows that are kept, each kind once with its first run; a kind of another
+/// version is none.
+#[test]
+fn notices_of_runs_are_one_a_kind() {
+    let mut table = Table::default();
+    table.texts("record", ["a", "b", "c", "d"].map(str::to_owned).to_vec());
+    table.numbers("slider.radius", "m", vec![1.0, 1.0, 2.0, 2.0]);
+    let cells = ["", "gap_exceeded;close_call", "of_tomorrow;gap_exceeded", "gap_exceeded"];
+    table.texts("warnings", cells.map(str::to_owned).to_vec());
+    let told = |keep: &[String]| {
+        let request = FragilityRequest {
+            table: &table,
+            source_name: "runs",
+            demand: "peak",
+            limit: None,
+            measure: None,
+            units: None,
+            fit_to: None,
+            floor: None,
+            cap: None,
+            keep,
+            bootstrap: None,
+        };
+        let notice = |notice: Notice| (notice.kind, notice.severity(), notice.message);
+        noticed(&request).unwrap().into_iter().map(notice).collect::<Vec<_>>()
+    };
+    let gap = |said: &str| (NoticeKind::GapExceeded, Severity::Severe, said.to_owned());
+    let call = "1 of 4 runs, the first of them b".to_owned();
+    let call = (NoticeKind::CloseCall, Severity::Warning, call);
+    assert_eq!(told(&[]), [gap("3 of 4 runs, the first of them b"), call]);
+    assert_eq!(told(&["slider.radius=2 m".to_owned()]), [gap("2 of 2 runs, the first of them c")]);
 }
 
 /// The two components of a pair are one earthquake's: runs are clustered by pair where a table tells it.

@@ -29,7 +29,7 @@ fn the_message_of_a_failing_row_names_its_demand() {
     assert!(right.holds() && right.defects.is_empty(), "{right:?}");
     response.demands.sliding_path_m *= 1.01;
     let wrong = Verdict::of(&check(&model, &motion, &response), true);
-    let what = "demands error of sliding_path_m";
+    let what = "demands error of sliding path";
     assert!(!wrong.holds() && wrong.what_failed().starts_with(what), "{wrong:?}");
     assert!(wrong.what_failed().ends_with("above the bound 1.0e-10"), "{wrong:?}");
     assert_eq!(wrong.largest.map(|(name, _)| name).as_deref(), Some(what));

@@ -104,7 +104,8 @@ impl<'a> Modal<'a> {
         let (simd, sign, stride) = (how.simd, direction.sign(), 4 * how.width.fours());
         let near = 0.125 * batch.dt_s * batch.dt_s;
         let far = (BATCH * BATCH) as f64 * near;
-        if self.exits.iter().flatten().any(|exit| exit.of_s != 0.0 && exit.of_w != 0.0) {
+        let exits = self.exits;
+        if exits.iter().flatten().any(|exit| exit.of_s != 0.0 && exit.of_w != 0.0) {
             return sample;
         }
         let varying = matches!(self.ground.normal, Normal::Varying(_));
@@ -131,7 +132,26 @@ impl<'a> Modal<'a> {
                 let clear = (eight(simd, sign) * speed).simd_gt(eight(simd, hidden)).to_bitmask();
                 steps = clear_steps(clear, w > hidden);
             }
-            steps = self.steps_before_exits(how, batch, (a, force), hidden, steps);
+            for exit in exits.iter().flatten() {
+                if exit.of_w != 0.0 {
+                    let start = exit.value(0.0, self.x[1]);
+                    if !(start > hidden && exit.value(0.0, self.next[1]) > hidden) {
+                        let speed = batch.rows[output::VELOCITY].values(simd, x, a, force);
+                        let value = speed * eight(simd, exit.of_w) + eight(simd, exit.constant);
+                        let hidden = hidden * PER_SAMPLE;
+                        let clear = value.simd_gt(eight(simd, hidden)).to_bitmask();
+                        steps = steps.min(clear_steps(clear, start > hidden));
+                    }
+                    continue;
+                }
+                // s is monotone while the block slides: its value at a sample speaks for all before.
+                if steps < BATCH || !(exit.value(self.next[0], self.next[1]) > 0.0) {
+                    let s = batch.displacement.values(simd, x, a, force);
+                    let value = s * eight(simd, exit.of_s) + eight(simd, exit.constant);
+                    let clear = value.simd_gt(eight(simd, 0.0)).to_bitmask();
+                    steps = steps.min(clear_steps(clear, true));
+                }
+            }
             if steps == 0 {
                 break;
             }
@@ -159,41 +179,6 @@ impl<'a> Modal<'a> {
         sample
     }
 
-    /// So many samples at most, up to the first in which the branch of the slider may end, from `x` to `next`;
-    /// `hidden` is what a chord over the batch hides of the velocity.
-    #[inline(always)]
-    fn steps_before_exits<S: Simd, W: Width>(
-        &self,
-        how: How<S, W>,
-        batch: &Batch,
-        (a, force): (&Window, Force<'_>),
-        hidden: f64,
-        mut steps: usize,
-    ) -> usize {
-        let (simd, x) = (how.simd, &self.x[..4 * how.width.fours()]);
-        for exit in self.exits.iter().flatten() {
-            if exit.of_w != 0.0 {
-                let start = exit.value(0.0, self.x[1]);
-                if !(start > hidden && exit.value(0.0, self.next[1]) > hidden) {
-                    let speed = batch.rows[output::VELOCITY].values(simd, x, a, force);
-                    let value = speed * eight(simd, exit.of_w) + eight(simd, exit.constant);
-                    let hidden = hidden * PER_SAMPLE;
-                    let clear = value.simd_gt(eight(simd, hidden)).to_bitmask();
-                    steps = steps.min(clear_steps(clear, start > hidden));
-                }
-                continue;
-            }
-            // s is monotone while the block slides: its value at a sample speaks for all before.
-            if steps < BATCH || !(exit.value(self.next[0], self.next[1]) > 0.0) {
-                let s = batch.displacement.values(simd, x, a, force);
-                let value = s * eight(simd, exit.of_s) + eight(simd, exit.constant);
-                let clear = value.simd_gt(eight(simd, 0.0)).to_bitmask();
-                steps = steps.min(clear_steps(clear, true));
-            }
-        }
-        steps
-    }
-
     /// Takes samples of stick.
     #[inline(always)]
     fn screen_stick<S: Simd, W: Width>(
@@ -209,6 +194,8 @@ impl<'a> Modal<'a> {
         let near = 0.125 * batch.dt_s * batch.dt_s;
         let far = (BATCH * BATCH) as f64 * near;
         let force = Force::Constant(0.0);
+        let row = &phase.outputs.rows[output::FRICTION];
+        let constant = row.of_stop * stop + row.constant;
         let mut known = Known::default();
         while sample + BATCH <= end {
             if pulse.tick(self.units).is_err() {
@@ -224,8 +211,23 @@ impl<'a> Modal<'a> {
             let by_batch = self.coarse(how, phase, size, BATCH as f64 * batch.dt_s);
             if self.is_quiet(how, phase, &by_batch, stop, holds) {
                 known = Known::default();
-                let samples = [sample, end];
-                sample += self.take_quiet(how, course, (phase, batch), samples, (size, holds));
+                let later = (1..QUIET / BATCH).map(|i| sample + i * BATCH);
+                if sample + QUIET <= end
+                    && matches!(self.ground.normal, Normal::Constant(_))
+                    && let size = later
+                        .fold(size, |size, i| greatest(size, largest_size(simd, self.window(i))))
+                    && let coarse = self.coarse(how, phase, size, QUIET as f64 * batch.dt_s)
+                    && self.is_quiet(how, phase, &coarse, stop, holds)
+                {
+                    self.take_quiet(how, course, batch, sample);
+                    sample += QUIET;
+                    continue;
+                }
+                let (x, next) = (&self.x[..stride], &mut self.next[..stride]);
+                batch.maps.after(simd, BATCH, x, a, force, next);
+                self.record_batch(how, course, batch, [sample, BATCH], (a, force));
+                self.swap_in_stick();
+                sample += BATCH;
                 continue;
             }
             let (x, next) = (&self.x[..stride], &mut self.next[..stride]);
@@ -237,8 +239,24 @@ impl<'a> Modal<'a> {
             let mut next_y = Self::group_at(simd, phase, 0, &self.next[..stride], after);
             let [first, last] = [y, next_y].map(|y| y.as_array()[output::FRICTION]);
             let hidden = slack.as_array()[output::FRICTION];
-            let ends = [first, last];
-            let steps = self.held_samples(how, (phase, batch), sample, (curvature, hidden), ends);
+            let steps = match self.ground.normal {
+                Normal::Constant(normal)
+                    if let [low, high] = hold.friction_n(normal)
+                        && least(first, last) > low + hidden
+                        && greatest(first, last) < high - hidden =>
+                {
+                    BATCH
+                }
+                normal => {
+                    let hidden = curvature.slack(simd, &phase.outputs.groups[0], near);
+                    let hidden = hidden.as_array()[output::FRICTION];
+                    let x = &self.x[..stride];
+                    let demand = batch.rows[output::FRICTION].values(simd, x, a, force)
+                        + eight(simd, constant);
+                    let normal = normal.values(simd, sample);
+                    held_steps(simd, (demand, first), normal, &hold, hidden)
+                }
+            };
             if steps == 0 {
                 break;
             }
@@ -266,36 +284,6 @@ impl<'a> Modal<'a> {
             }
         }
         sample
-    }
-
-    /// Samples of a batch of stick over which the block is held, from the demands at its ends and what a chord over it
-    /// hides of them.
-    #[inline(always)]
-    fn held_samples<S: Simd, W: Width>(
-        &self,
-        how: How<S, W>,
-        (phase, batch): (&PhaseTables, &Batch),
-        sample: usize,
-        (curvature, hidden): (Curvature, f64),
-        [first, last]: [f64; 2],
-    ) -> usize {
-        let (simd, hold) = (how.simd, &self.hold);
-        if let Normal::Constant(normal) = self.ground.normal
-            && let [low, high] = hold.friction_n(normal)
-            && least(first, last) > low + hidden
-            && greatest(first, last) < high - hidden
-        {
-            return BATCH;
-        }
-        let near = 0.125 * batch.dt_s * batch.dt_s;
-        let hidden = curvature.slack(simd, &phase.outputs.groups[0], near);
-        let hidden = hidden.as_array()[output::FRICTION];
-        let row = &phase.outputs.rows[output::FRICTION];
-        let constant = row.of_stop * self.now.stop + row.constant;
-        let (a, x) = (self.window(sample), &self.x[..4 * how.width.fours()]);
-        let row = &batch.rows[output::FRICTION];
-        let demand = row.values(simd, x, a, Force::Constant(0.0)) + eight(simd, constant);
-        held_steps(simd, (demand, first), self.ground.normal.values(simd, sample), hold, hidden)
     }
 
     /// Looks at the outputs of samples from `x` to `next`: where neither a bound on the state nor the
@@ -445,40 +433,9 @@ impl<'a> Modal<'a> {
         core::mem::swap(&mut self.x, &mut self.next);
     }
 
-    /// Takes a batch of quiet stick, or many where all that they begin is quiet too; how many samples. Of the batch the
-    /// largest acceleration is known, and by how much the demand may change.
+    /// Moves the state on over quiet stick.
     #[inline(always)]
     fn take_quiet<S: Simd, W: Width>(
-        &mut self,
-        how: How<S, W>,
-        course: &WalkState<'a>,
-        (phase, batch): (&PhaseTables, &Batch),
-        [sample, end]: [usize; 2],
-        (size, holds): (f64, f64),
-    ) -> usize {
-        let later = (1..QUIET / BATCH).map(|i| sample + i * BATCH);
-        let is_long = sample + QUIET <= end && matches!(self.ground.normal, Normal::Constant(_));
-        if is_long
-            && let size =
-                later.fold(size, |size, i| greatest(size, largest_size(how.simd, self.window(i))))
-            && let coarse = self.coarse(how, phase, size, QUIET as f64 * batch.dt_s)
-            && self.is_quiet(how, phase, &coarse, self.now.stop, holds)
-        {
-            self.take_many_quiet(how, course, batch, sample);
-            return QUIET;
-        }
-        let (a, stride) = (self.window(sample), 4 * how.width.fours());
-        let force = Force::Constant(0.0);
-        let (x, next) = (&self.x[..stride], &mut self.next[..stride]);
-        batch.maps.after(how.simd, BATCH, x, a, force, next);
-        self.record_batch(how, course, batch, [sample, BATCH], (a, force));
-        self.swap_in_stick();
-        BATCH
-    }
-
-    /// Moves the state on over many samples of quiet stick.
-    #[inline(always)]
-    fn take_many_quiet<S: Simd, W: Width>(
         &mut self,
         how: How<S, W>,
         course: &WalkState<'a>,

@@ -79,25 +79,6 @@ impl Scratch {
         self.places.clear();
     }
 
-    /// Keeps a sample of a candidate for those outputs of a group whose bits are open.
-    #[inline(always)]
-    fn note<S: Simd>(
-        &mut self,
-        candidate: usize,
-        sample: usize,
-        g: usize,
-        bound: f64x8<S>,
-        mut open: u64,
-    ) {
-        let bound = bound.to_array();
-        while open != 0 {
-            let lane = open.trailing_zeros() as usize;
-            let (output, bound) = (8 * g + lane, bound[lane]);
-            self.places.push(Place { candidate, sample, output, bound });
-            open &= open - 1;
-        }
-    }
-
     /// Finds for each of so many outputs the place with the largest bound.
     fn find_highest(&mut self, outputs: usize) {
         self.highest.clear();
@@ -256,7 +237,14 @@ impl<'a> Modal<'a> {
                     continue;
                 }
                 if to == from + 1 {
-                    self.peaks.scratch.note(i, from, g, bound, open.to_bitmask());
+                    let (bound, mut open) = (bound.to_array(), open.to_bitmask());
+                    while open != 0 {
+                        let lane = open.trailing_zeros() as usize;
+                        let (output, bound) = (8 * g + lane, bound[lane]);
+                        let place = Place { candidate: i, sample: from, output, bound };
+                        self.peaks.scratch.places.push(place);
+                        open &= open - 1;
+                    }
                     continue;
                 }
             }

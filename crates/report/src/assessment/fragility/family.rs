@@ -1,6 +1,7 @@
 //! Fragilities of the same table by the values of a path.
 
 use slipstick::assessment::observed::{Averaged, FragilityGroup, FragilityRun};
+use slipstick::assessment::suite::condensed;
 use slipstick::notice::{Notice, NoticeKind};
 use slipstick::table::Table;
 
@@ -91,16 +92,9 @@ impl FragilityFamily<'_> {
         let unit = first.unit();
         let fitted = first.fitted();
         let fitted = fitted.split("; averaged").next().unwrap_or(&fitted);
-        let mut warnings: Vec<Notice> = Vec::new();
-        for (group, report) in &reports {
-            for warning in &report.run.warnings {
-                let said = warnings.iter().any(|w| w.kind == warning.kind);
-                if !said {
-                    let message = format!("{}: {}", self.label(group), warning.message);
-                    warnings.push(Notice { message, ..warning.clone() });
-                }
-            }
-        }
+        let labels: Vec<String> = reports.iter().map(|(group, _)| self.label(group)).collect();
+        let of_curve = |i: usize| (labels[i].as_str(), &reports[i].1.run.warnings[..]);
+        let mut warnings = condensed("curves", (0..reports.len()).map(of_curve));
         for group in self.groups {
             if let Err(error) = &group.run {
                 let message = format!("{} = {}: {error}", self.by, self.label(group));

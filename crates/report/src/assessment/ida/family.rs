@@ -126,7 +126,7 @@ impl Groups<'_> {
         let mut notes: Vec<String> = Vec::new();
         if family.limit.is_some() {
             notes.push(
-                "Lognormal capacities by maximum likelihood; `slipstick fragility` on ida.csv gives \
+                "Lognormal capacities by maximum likelihood; slipstick fragility on ida.csv gives \
                  their certainty."
                     .to_owned(),
             );
