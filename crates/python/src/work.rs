@@ -91,8 +91,8 @@ fn ended_early() -> PyErr {
 }
 
 /// Does work on threads of its own, which end with it, while Python's other threads go on. Every now
-/// and then `progress` is called with the runs done and planned. A signal, or an exception of
-/// `progress`, stops the work and is raised.
+/// and then, and when the work is done, `progress` is called with the runs done and planned. A signal, or an
+/// exception of `progress`, stops the work and is raised.
 pub(crate) fn followed<T: Send>(
     py: Python<'_>,
     jobs: Option<i64>,
@@ -139,7 +139,7 @@ pub(crate) fn followed<T: Send>(
             let mut raised = None;
             loop {
                 match receiver.recv_timeout(TURN) {
-                    Ok(result) => return raised.map_or(Ok(result), Err),
+                    Ok(result) => return raised.map_or_else(|| turn().map(|()| result), Err),
                     Err(RecvTimeoutError::Timeout) if raised.is_none() => {
                         if let Err(error) = turn() {
                             stop.store(true, Ordering::Relaxed);

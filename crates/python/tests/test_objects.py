@@ -315,6 +315,10 @@ def test_long_work_is_followed(monkeypatch: pytest.MonkeyPatch) -> None:
     assert cell.getvalue() == shown
     assert shown.startswith("\r50 of 200 runs, 25 %, 0 s left") and shown.endswith("\r")
     assert ss.demands(block(), quick_pulse(), {"block.mass": [1.0]}, progress=Bar) is not None
+    # Of work that is done before anybody is told the end is told.
+    told: list[tuple[int, int]] = []
+    ss.demands(block(), quick_pulse(), {"block.mass": [1.0, 2.0]}, progress=lambda *at: told.append(at))
+    assert told[-1] == (2, 2)
 
 
 @pytest.mark.skipif(os.name != "posix", reason="signals are sent as POSIX does")
