@@ -242,11 +242,11 @@ impl Composed {
         less(own, self.less[axis])
     }
 
-    /// A bound on its length, from one on that of friction.
-    fn longest(&self, chords: &[[Chord; 2]; 3], most_friction: f64) -> f64 {
-        let (ends, bends) = Self { of_friction: 0.0, ..*self }.between(chords);
+    /// A bound on its length over a part of a series.
+    fn longest(&self, part: &SeriesPart<'_>) -> f64 {
+        let (ends, bends) = Self { of_friction: 0.0, ..*self }.between(part.chords);
         let steady = norm(ends[0]).max(norm(ends[1])) + norm(bends);
-        steady + self.of_friction.abs() * most_friction
+        steady + self.of_friction.abs() * most_friction(part)
     }
 
     /// Its values at both ends, and how far its components depart from their chords at most.
@@ -566,9 +566,8 @@ impl Peaks {
         let none = [0.0; 2];
         let friction = Composed { of_pull: 0.0, of_shear: 0.0, of_friction: kg, less: none };
         let slider = Composed { of_pull: kg, of_shear: -1.0, of_friction: kg, less: none };
-        let most = most_friction(part);
-        self.look_at_composed(Output::FrictionForce, &friction, part, most);
-        self.look_at_composed(Output::SliderForce, &slider, part, most);
+        self.look_at_composed(Output::FrictionForce, &friction, part);
+        self.look_at_composed(Output::SliderForce, &slider, part);
         let mut own = None;
         if let Some(mass) = &system.mass {
             // b = C (P − φ)
@@ -582,7 +581,7 @@ impl Peaks {
             self.look_at_vector(Output::Block, &Vector { steady, ..block }, part);
             own = Some(block);
         } else {
-            self.look_at_composed(Output::Block, &block, part, most);
+            self.look_at_composed(Output::Block, &block, part);
         }
         let mut moments = Vector { steady: [ZERO; 2], of_friction: [[0.0; 2]; 2] };
         for axis in 0..2 {
@@ -617,22 +616,16 @@ impl Peaks {
         own
     }
 
-    /// Under friction that is never more than a bound: a vector that is friction alone is never longer either.
-    fn look_at_composed(
-        &mut self,
-        output: Output,
-        of: &Composed,
-        part: &SeriesPart<'_>,
-        most_friction: f64,
-    ) {
+    /// Where a vector is never longer than its ends, as one that is friction alone, only its components are searched.
+    fn look_at_composed(&mut self, output: Output, of: &Composed, part: &SeriesPart<'_>) {
         let peak = &mut self.all[output.place(self.points)];
         let (ends, bends) = of.between(part.chords);
         peak.note_ends(ends, part.to);
-        let longest = of.longest(part.chords, most_friction);
-        let by_axis = longest <= peak.norm * (1.0 + ROUNDING);
-        let is_above =
-            if by_axis { peak.is_above_by_axis(ends, bends) } else { peak.is_above(ends, bends) };
-        if !is_above {
+        if peak.is_above(ends, bends) {
+            return;
+        }
+        let by_axis = of.longest(part) <= peak.norm * (1.0 + ROUNDING);
+        if !(by_axis && peak.is_above_by_axis(ends, bends)) {
             let c = of.of_friction;
             let steady = [of.steady(0, part.series), of.steady(1, part.series)];
             let vector = Vector { steady, of_friction: [[c, 0.0], [0.0, c]] };
