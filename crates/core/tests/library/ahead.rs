@@ -8,6 +8,7 @@ use crate::common::random_devices::{System, system};
 use slipstick::error::SolveError;
 use slipstick::motion::GroundMotion;
 use slipstick::response::{History, Response};
+use slipstick::slider::PressureLaw;
 use slipstick::solver::{InstructionSet, Prepared, PreparedMotion, exact, exact_demands};
 
 /// Largest difference, over the peak of each quantity.
@@ -15,14 +16,22 @@ const TOLERANCE: f64 = 1e-10;
 /// Relative change of the motion that must move a well-conditioned answer by less.
 const PERTURBATION: f64 = 1e-12;
 
-/// The level motion of a system, times a factor.
-fn level(system: &System, factor: f64) -> GroundMotion {
+/// Whether a motion lifts the ground too.
+#[derive(Clone, Copy, PartialEq)]
+enum Vertical {
+    Without,
+    With,
+}
+
+/// The motion of a system, its horizontal part times a factor.
+fn even(system: &System, factor: f64, vertical: Vertical) -> GroundMotion {
     let a = system.horizontal.iter().map(|a| factor * a).collect();
-    GroundMotion::new(system.times_s.clone(), a, None).expect("a motion")
+    let lifts = system.vertical.clone().filter(|_| vertical == Vertical::With);
+    GroundMotion::new(system.times_s.clone(), a, lifts).expect("a motion")
 }
 
 /// The same straight lines, every interval cut in three uneven parts: no even step is left to run ahead by.
-fn cut(system: &System, factor: f64) -> GroundMotion {
+fn cut(system: &System, factor: f64, vertical: Vertical) -> GroundMotion {
     let cut = |x: &[f64]| -> Vec<f64> {
         let parts = |(i, pair): (usize, &[f64])| {
             let parts = if i % 2 == 0 { [0.0, 0.3, 0.55] } else { [0.0, 0.2, 0.75] };
@@ -31,8 +40,23 @@ fn cut(system: &System, factor: f64) -> GroundMotion {
         };
         x.windows(2).enumerate().flat_map(parts).chain(x.last().copied()).collect()
     };
-    let a = system.horizontal.iter().map(|a| factor * a).collect::<Vec<f64>>();
-    GroundMotion::new(cut(&system.times_s), cut(&a), None).expect("a motion")
+    let even = even(system, factor, vertical);
+    let a = cut(even.horizontal_m_per_s2());
+    GroundMotion::new(cut(even.times_s()), a, even.vertical_m_per_s2().map(cut)).expect("a motion")
+}
+
+/// The system of a seed; under vertical motion the friction of every other one follows the pressure.
+fn drawn(seed: u64, vertical: Vertical) -> System {
+    let mut system = system(seed);
+    if vertical == Vertical::With
+        && seed.is_multiple_of(2)
+        && let Some(friction) = system.model.slider().friction()
+    {
+        let law = PressureLaw::new(20e6, 15e6, 0.25).expect("a law");
+        let friction = friction.under_pressure(law).expect("friction");
+        system.model = system.model.with_friction(friction);
+    }
+    system
 }
 
 /// The columns of a history at every so many rows, each with the number of values of a row.
@@ -117,13 +141,15 @@ fn difference(a: &Response, b: &Response, rows: [usize; 2]) -> (f64, String) {
     worst
 }
 
-fn agree(first: u64, count: u64) {
+fn agree(first: u64, count: usize, vertical: Vertical) {
     let (mut compared, mut events, mut ill, mut worst) = (0, 0, 0, 0.0_f64);
     let mut wrong = Vec::new();
-    for seed in first..first + count {
-        let system = system(seed);
-        let stepped = exact(&system.model, &cut(&system, 1.0));
-        let ahead = exact(&system.model, &level(&system, 1.0));
+    let all = (first..).map(|seed| (seed, drawn(seed, vertical)));
+    let wanted =
+        all.filter(|(_, system)| vertical == Vertical::Without || system.vertical.is_some());
+    for (seed, system) in wanted.take(count) {
+        let stepped = exact(&system.model, &cut(&system, 1.0, vertical));
+        let ahead = exact(&system.model, &even(&system, 1.0, vertical));
         let (stepped, ahead) = match (&stepped, &ahead) {
             (Ok(stepped), Ok(ahead)) => (stepped, ahead),
             (Err(SolveError::EndOfTravel { .. }), Err(SolveError::EndOfTravel { .. })) => continue,
@@ -138,7 +164,8 @@ fn agree(first: u64, count: u64) {
             worst = worst.max(off);
             continue;
         }
-        let moved = exact(&system.model, &cut(&system, 1.0 + PERTURBATION)).expect("a response");
+        let moved =
+            exact(&system.model, &cut(&system, 1.0 + PERTURBATION, vertical)).expect("a response");
         if difference(stepped, &moved, [3, 3]).0 > TOLERANCE {
             ill += 1;
         } else {
@@ -176,13 +203,17 @@ fn bits(r: &Response, sign: f64) -> Vec<u64> {
 fn bits_know_no_side_no_history_and_no_instruction_set() {
     for seed in 0..200 {
         let system = system(seed);
-        let Ok(response) = exact(&system.model, &level(&system, 1.0)) else { continue };
+        let Ok(response) = exact(&system.model, &even(&system, 1.0, Vertical::Without)) else {
+            continue;
+        };
         let here = bits(&response, 1.0);
-        let mirrored = exact(&system.mirrored, &level(&system, -1.0)).expect("a response");
+        let mirrored =
+            exact(&system.mirrored, &even(&system, -1.0, Vertical::Without)).expect("a response");
         assert_eq!(bits(&mirrored, -1.0), here, "seed {seed} mirrored");
-        let demands = exact_demands(&system.model, &level(&system, 1.0)).expect("a response");
+        let demands = exact_demands(&system.model, &even(&system, 1.0, Vertical::Without))
+            .expect("a response");
         assert_eq!(bits(&demands, 1.0), here, "seed {seed} without history");
-        let motion = PreparedMotion::new(level(&system, 1.0));
+        let motion = PreparedMotion::new(even(&system, 1.0, Vertical::Without));
         let model = Prepared::new(system.model, motion.dt_s());
         for set in InstructionSet::all() {
             let response = model.demands_by(set, &motion).expect("a response");
@@ -193,11 +224,13 @@ fn bits_know_no_side_no_history_and_no_instruction_set() {
 
 #[test]
 fn peer_event_stepping_on_random_devices() {
-    agree(0, 400);
+    agree(0, 400, Vertical::Without);
+    agree(20_000, 200, Vertical::With);
 }
 
 #[test]
 #[ignore = "minutes: cargo xtask nightly"]
 fn peer_event_stepping_on_many_random_devices() {
-    agree(0, 10_000);
+    agree(0, 10_000, Vertical::Without);
+    agree(20_000, 10_000, Vertical::With);
 }

@@ -92,9 +92,11 @@ impl<'a> Law<'a> {
         }
     }
 
-    /// Whether branches come again as they were, each affine under a constant normal force.
-    pub(crate) fn repeats(&self) -> bool {
-        self.bearing.series().is_none() && self.fading_rate_s_per_m().is_none()
+    /// Whether what is in force at rest, or while the block slides, comes again as it was and is affine under a constant
+    /// normal force.
+    pub(crate) fn repeats(&self, slides: bool) -> bool {
+        let is_affine = !slides || self.fading_rate_s_per_m().is_none();
+        self.bearing.series().is_none() && is_affine
     }
 
     /// The forces of a block that has but two branches, each with a constant friction force over the

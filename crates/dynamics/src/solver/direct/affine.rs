@@ -142,9 +142,9 @@ impl<'a> Direct<'a> {
     /// The place of the present configuration, if its motion is affine.
     pub(super) fn configuration(&mut self, course: &WalkState<'a>) -> Option<usize> {
         let dt_s = self.ground.sampling.dt_s?;
-        let Normal::Constant(normal_n) = self.ground.normal else { return None };
+        let normal_n = self.normal_within()?;
         let count = self.x.count();
-        if !(normal_n > 0.0 && course.slider.law.repeats()) || count > MOST_COMPONENTS {
+        if !course.slider.law.repeats(self.modes[0] != Mode::Stick) || count > MOST_COMPONENTS {
             return None;
         }
         let (all, memory) = (&self.ahead.configurations, &course.slider.memory);
@@ -168,6 +168,15 @@ impl<'a> Direct<'a> {
             }
         }
         self.ahead.configurations[place].affine.is_some().then_some(place)
+    }
+
+    /// The normal force that a configuration knows of: one that is constant, or none where it varies and all is stuck,
+    /// as it moves nothing then.
+    fn normal_within(&self) -> Option<f64> {
+        match self.ground.normal {
+            Normal::Constant(normal_n) => Some(normal_n).filter(|normal_n| *normal_n > 0.0),
+            Normal::Varying(_) => self.modes.iter().all(|mode| *mode == Mode::Stick).then_some(0.0),
+        }
     }
 
     fn affine(&mut self, course: &WalkState<'a>, dt_s: f64, normal_n: f64) -> Option<Affine> {

@@ -10,6 +10,7 @@ use fearless_simd::prelude::*;
 
 use super::super::chords::bound_between;
 use super::super::course::WalkState;
+use super::super::ground::Normal;
 use super::super::phase::{LinePhase, Phase};
 use super::super::walk::Walk;
 use super::Direct;
@@ -18,7 +19,7 @@ use crate::linear::lanes::{eight, larger, largest_lane};
 use crate::linear::{BATCH, Force, Window};
 use crate::numerics::instructions::vectorize;
 use crate::response::{Mode, output};
-use crate::slider::Contact;
+use crate::slider::{Contact, Hold};
 
 /// Candidates that are kept before they are settled.
 const CANDIDATES: usize = 512;
@@ -38,17 +39,15 @@ pub(super) struct Ahead {
     margins: Vec<Margin>,
 }
 
-/// What is positive while nothing happens: `Σ factor × value + constant` of an output, or of `s` and `ṡ`.
-struct Margin {
-    of: MarginOf,
-    constant: f64,
-}
-
-enum MarginOf {
-    /// An output, by a factor.
-    Output(usize, f64),
-    /// `s`, which is monotone while the block slides: its value at a sample speaks for all before.
-    Level(f64),
+/// What holds while nothing happens.
+enum Margin {
+    /// `factor × output + constant` is positive.
+    Output { output: usize, factor: f64, constant: f64 },
+    /// `factor × s + constant` is positive; `s` is monotone while the block slides: its value at a sample speaks for all
+    /// before.
+    Level { factor: f64, constant: f64 },
+    /// What a stuck interface is asked for is between what holds it at the samples of a batch.
+    Held { interface: usize, output: usize, between: [Nine; 2] },
 }
 
 /// A sample in which an output may have its peak.
@@ -130,7 +129,9 @@ fn batches<'a, S: Simd>(
         ahead.outputs.clear();
         let start = affine.outputs.iter().map(|y| [y.at(&ahead.x, a); BATCH + 1]);
         ahead.outputs.extend(start);
+        ahead.outputs[output::FRICTION][0] += phase.of_varying_normal_n(course, sample);
         while sample + BATCH <= end && walk.pulse.tick(walk.units).is_ok() {
+            phase.find_bounds(course, &mut margins, sample);
             let steps = phase.batch(simd, course, ahead, (affine, configuration), &margins, sample);
             sample += steps;
             if steps < BATCH {
@@ -144,44 +145,72 @@ fn batches<'a, S: Simd>(
 }
 
 impl<'a> Direct<'a> {
-    /// The output that says what a stuck interface is asked for, and between what it is held.
-    fn held_between(&self, course: &WalkState<'a>, interface: usize) -> (usize, [f64; 2]) {
-        let (normal_n, hold) = (self.ground.normal_at(0), self.hold(course, interface));
-        let Some(i) = interface.checked_sub(1) else {
-            return (output::FRICTION, hold.holds_n(normal_n));
-        };
+    /// Between what a stuck interface is held under a normal force on the slider, in the unit of the output that says
+    /// what it is asked for.
+    fn held_between(&self, hold: &Hold, interface: usize, normal_n: f64) -> [f64; 2] {
+        if interface == 0 {
+            return hold.holds_n(normal_n);
+        }
         let slope = self.peaks.slope_m_per_s2;
-        let bounds = hold.holds_n(normal_n / self.body.total_kg);
-        (self.contents_acceleration_output(i), bounds.map(|bound| bound - slope))
+        hold.holds_n(normal_n / self.body.total_kg).map(|bound| bound - slope)
     }
 
-    /// What must stay positive in the present modes; false where that is more than values of the outputs.
+    /// What must hold in the present modes, its bounds still to be found; false where that is more than values of the
+    /// outputs.
     fn find_margins(&self, course: &WalkState<'a>, margins: &mut Vec<Margin>) -> bool {
         margins.clear();
-        let mut push = |of, constant| margins.push(Margin { of, constant });
-        for (i, mode) in self.modes.iter().enumerate() {
-            match mode {
-                Mode::Slip(direction) => {
-                    push(MarginOf::Output(self.velocity_output(i), direction.sign()), 0.0);
-                }
+        for (interface, mode) in self.modes.iter().enumerate() {
+            margins.push(match mode {
+                Mode::Slip(direction) => Margin::Output {
+                    output: self.velocity_output(interface),
+                    factor: direction.sign(),
+                    constant: 0.0,
+                },
                 Mode::Stick => {
-                    let (asked, [low, high]) = self.held_between(course, i);
-                    push(MarginOf::Output(asked, 1.0), -low);
-                    push(MarginOf::Output(asked, -1.0), high);
+                    let of_contents = |i| self.contents_acceleration_output(i);
+                    let output = interface.checked_sub(1).map_or(output::FRICTION, of_contents);
+                    Margin::Held { interface, output, between: [[0.0; BATCH + 1]; 2] }
                 }
-            }
+            });
         }
         if let Mode::Slip(direction) = self.modes[0] {
             let (law, memory) = (course.slider.law, &course.slider.memory);
             for exit in law.exits(memory, direction).into_iter().flatten() {
-                match [exit.of_s, exit.of_w] {
-                    [of_s, 0.0] => push(MarginOf::Level(of_s), exit.constant),
-                    [0.0, of_w] => push(MarginOf::Output(output::VELOCITY, of_w), exit.constant),
+                let constant = exit.constant;
+                margins.push(match [exit.of_s, exit.of_w] {
+                    [factor, 0.0] => Margin::Level { factor, constant },
+                    [0.0, factor] => Margin::Output { output: output::VELOCITY, factor, constant },
                     _ => return false,
-                }
+                });
             }
         }
         true
+    }
+
+    /// Finds the bounds of what sticks over the batch from a sample. Between two samples they are no nearer than their
+    /// chord: friction grows with the normal force, or with a power of it below one.
+    fn find_bounds(&self, course: &WalkState<'a>, margins: &mut [Margin], sample: usize) {
+        for margin in margins {
+            let Margin::Held { interface, between: [low, high], .. } = margin else { continue };
+            let hold = self.hold(course, *interface);
+            for k in 0..=BATCH {
+                if k == 0 || matches!(self.ground.normal, Normal::Varying(_)) {
+                    let normal_n = self.ground.normal_at(sample + k).max(0.0);
+                    [low[k], high[k]] = self.held_between(&hold, *interface, normal_n);
+                } else {
+                    (low[k], high[k]) = (low[0], high[0]);
+                }
+            }
+        }
+    }
+
+    /// What a normal force that varies adds to what friction is asked for at rest, beside that of its configuration,
+    /// which knows of none.
+    fn of_varying_normal_n(&self, course: &WalkState<'a>, sample: usize) -> f64 {
+        match self.ground.normal {
+            Normal::Constant(_) => 0.0,
+            Normal::Varying(normal_n) => self.hold(course, 0).of_normal * normal_n[sample],
+        }
     }
 
     /// Takes the samples of a batch up to the first that is left open; how many.
@@ -205,23 +234,39 @@ impl<'a> Direct<'a> {
         for (number, y) in affine.outputs.iter().zip(&mut ahead.outputs) {
             number.values(simd, &ahead.states, (a, 1), eight(simd, 0.0)).store_slice(&mut y[1..]);
         }
+        if let Some(normal_n) = self.ground.normal.window(sample) {
+            let of_normal = self.hold(course, 0).of_normal;
+            let friction_n = &mut ahead.outputs[output::FRICTION];
+            for (friction_n, normal_n) in friction_n.iter_mut().zip(normal_n).skip(1) {
+                *friction_n += of_normal * normal_n;
+            }
+        }
         let departure = Departure::new(simd, affine, &ahead.states, a);
         let mut clear = u64::MAX;
         for margin in margins {
-            clear &= match margin.of {
-                MarginOf::Output(j, factor) => {
-                    let y = &ahead.outputs[j];
-                    let slack = departure.of(simd, &affine.outputs[j]) * eight(simd, factor.abs());
-                    let slack = slack - eight(simd, margin.constant);
-                    let [first, last] = both_ends(simd, y);
-                    let factor = eight(simd, factor);
+            clear &= match margin {
+                Margin::Output { output, factor, constant } => {
+                    let slack = departure.of(simd, &affine.outputs[*output]);
+                    let slack = slack * eight(simd, factor.abs()) - eight(simd, *constant);
+                    let [first, last] = both_ends(simd, &ahead.outputs[*output]);
+                    let factor = eight(simd, *factor);
                     let [first, last] = [first * factor, last * factor];
                     (first.simd_gt(slack) & last.simd_gt(slack)).to_bitmask()
                 }
-                MarginOf::Level(factor) => {
+                Margin::Level { factor, constant } => {
                     let s = f64x8::from_slice(simd, &ahead.states[0][1..]);
-                    let value = s * eight(simd, factor) + eight(simd, margin.constant);
+                    let value = s * eight(simd, *factor) + eight(simd, *constant);
                     value.simd_gt(eight(simd, 0.0)).to_bitmask()
+                }
+                Margin::Held { output, between, .. } => {
+                    let slack = departure.of(simd, &affine.outputs[*output]);
+                    let asked = both_ends(simd, &ahead.outputs[*output]);
+                    let [low, high] = between.each_ref().map(|bound| both_ends(simd, bound));
+                    let is_held = |end: usize| {
+                        asked[end].simd_gt(slack + low[end])
+                            & (-asked[end]).simd_gt(slack - high[end])
+                    };
+                    (is_held(0) & is_held(1)).to_bitmask()
                 }
             };
         }

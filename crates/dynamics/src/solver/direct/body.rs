@@ -304,7 +304,11 @@ impl Body {
             out.decay = ZERO;
             out.decay[0] = libm::exp(-rate_s_per_m * x.w.abs());
         }
-        let pressing = in_force.force.pressing.series(normal);
+        // What sticks does not ask for it.
+        let pressing = match in_force.modes[0] {
+            Mode::Stick => ZERO,
+            Mode::Slip(_) => in_force.force.pressing.series(normal),
+        };
         let is_linear = matches!(in_force.force.coefficient, Coefficient::Linear { .. });
         let (mut largest, mut sizes) = (0.0_f64, [0.0; DEGREE + 1]);
         for k in 0..=orders.min(DEGREE) {
