@@ -135,7 +135,7 @@ pub fn free_threaded() -> Outcome {
 
 /// Builds the extension as the tests' own build does, and copies it to where Python looks for it.
 fn extension() -> Outcome {
-    shell::run(&mut shell::cargo("build --workspace --lib --bins --tests --quiet"))?;
+    shell::run(&mut shell::cargo_for_many_runs("build --workspace --lib --bins --tests --quiet"))?;
     let built = format!("{}_core{}", consts::DLL_PREFIX, consts::DLL_SUFFIX);
     let built = shell::target_folder()?.join("debug").join(built);
     let name = if cfg!(windows) { "_core.pyd" } else { "_core.abi3.so" };

@@ -63,7 +63,7 @@ pub fn examples_by(slipstick: &Path, tally: &mut Tally) -> Result<(), Problem> {
 
 /// A program that the tests have built, so that nothing is compiled once more.
 pub(super) fn tested(program: &str) -> Result<PathBuf, String> {
-    shell::run(&mut shell::cargo("test --workspace --no-run --quiet"))?;
+    shell::run(&mut shell::cargo_for_many_runs("test --workspace --no-run --quiet"))?;
     let file = format!("{program}{}", std::env::consts::EXE_SUFFIX);
     Ok(shell::target_folder()?.join("debug").join(file))
 }

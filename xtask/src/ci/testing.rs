@@ -19,7 +19,7 @@ pub fn long(tally: &mut Tally) -> Result<(), Problem> {
 fn counted(options: &str, tally: &mut Tally) -> Result<(), Problem> {
     // --show-output: a test that skips something says so on its own output.
     let test = format!("test --workspace --no-fail-fast -- --show-output {options}");
-    let mut cargo = shell::cargo(&test);
+    let mut cargo = shell::cargo_for_many_runs(&test);
     let mut child =
         cargo.stdout(Stdio::piped()).spawn().map_err(|error| format!("cargo test: {error}"))?;
     let mut log = Log::default();
