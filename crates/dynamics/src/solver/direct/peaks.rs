@@ -44,10 +44,15 @@ pub(super) enum Part<'e> {
     /// Less a constant.
     Less(&'e Polynomial, f64),
     Difference([&'e Polynomial; 2]),
-    Made(Polynomial),
+    /// Apart, that what is handed about stays small.
+    Made(Box<Polynomial>),
 }
 
 impl Part<'_> {
+    fn made(p: Polynomial) -> Self {
+        Self::Made(Box::new(p))
+    }
+
     /// Its value at the start.
     pub(super) fn start(&self) -> f64 {
         match self {
@@ -75,7 +80,7 @@ impl Part<'_> {
                 p
             }
             Self::Difference([a, b]) => core::array::from_fn(|k| a[k] - b[k]),
-            Self::Made(p) => *p,
+            Self::Made(p) => **p,
         }
     }
 }
@@ -87,7 +92,7 @@ impl Linear for Part<'_> {
             part => {
                 let mut p = part.series();
                 p[0] -= constant;
-                Self::Made(p)
+                Self::made(p)
             }
         }
     }
@@ -98,7 +103,7 @@ impl Linear for Part<'_> {
             let p = term.series();
             sum.iter_mut().zip(p).for_each(|(sum, c)| *sum += factor * c);
         }
-        Self::Made(sum)
+        Self::made(sum)
     }
 }
 
@@ -113,7 +118,7 @@ impl<'e> InSeries<'e> {
     fn of_point(&self, point: usize, list: &'e [Polynomial]) -> Part<'e> {
         match &self.body.points {
             None => Part::Less(&list[point], 0.0),
-            Some((points, _)) => Part::Made(combined(&points[point], list)),
+            Some((points, _)) => Part::made(combined(&points[point], list)),
         }
     }
 
@@ -124,7 +129,7 @@ impl<'e> InSeries<'e> {
             None => Part::Difference([&list[point], &list[last]]),
             Some((points, _)) => {
                 let [here, below] = [point, last].map(|i| combined(&points[i], list));
-                Part::Made(core::array::from_fn(|k| here[k] - below[k]))
+                Part::made(core::array::from_fn(|k| here[k] - below[k]))
             }
         }
     }
@@ -175,7 +180,7 @@ impl<'e> Quantities for InSeries<'e> {
             return Part::Less(&series.floors[point], 0.0);
         };
         let of_modes = combined(&points[point], &series.floors);
-        Part::Made(core::array::from_fn(|k| of_modes[k] + with_block[point] * series.u[k]))
+        Part::made(core::array::from_fn(|k| of_modes[k] + with_block[point] * series.u[k]))
     }
 
     fn contents(&self, number: usize) -> [Part<'e>; 2] {
