@@ -333,11 +333,11 @@ impl<'a> LinePhase<'a> for Direct<'a> {
     }
 
     fn displacement(&self) -> &Polynomial {
-        &self.series.s
+        &self.series.state.s
     }
 
     fn velocity(&self, interface: usize) -> &Polynomial {
-        interface.checked_sub(1).map_or(&self.series.w, |i| &self.series.p[i])
+        interface.checked_sub(1).map_or(&self.series.state.w, |i| &self.series.state.p[i])
     }
 
     fn acceleration(&self, of: Of, interface: usize) -> Polynomial {
@@ -398,9 +398,9 @@ impl<'a> LinePhase<'a> for Direct<'a> {
     fn move_to(&mut self, part: f64) {
         self.series.state_at(part, &mut self.x);
         if self.modes[0] == Mode::Stick {
-            (self.x.s, self.x.w) = (self.series.s[0], 0.0);
+            (self.x.s, self.x.w) = (self.series.state.s[0], 0.0);
         }
-        for (i, r) in self.series.r.iter().enumerate() {
+        for (i, r) in self.series.state.r.iter().enumerate() {
             if self.modes[1 + i] == Mode::Stick {
                 (self.x.r[i], self.x.p[i]) = (r[0], 0.0);
             }

@@ -1,7 +1,9 @@
 //! The structure with its contents in physical coordinates, and the Taylor series of its motion.
 
+use core::slice;
+
 use super::super::ground::Stretch;
-use crate::linear::polynomial::{DEGREE, Polynomial, ZERO};
+use crate::linear::polynomial::{DEGREE, Polynomial, ZERO, value};
 use crate::linear::{System, fading_part};
 use crate::model::{Contents, Model};
 use crate::response::Mode;
@@ -30,15 +32,40 @@ pub(super) struct Body {
     pub(super) rate_rad_per_s: f64,
 }
 
-/// A state: block over ground, floors over block, contents over their floors.
+/// What a number of each kind there is of a state: of block over ground, floors over block, contents over their floors.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(in crate::solver) struct State {
-    pub(super) s: f64,
-    pub(super) w: f64,
-    pub(super) q: Vec<f64>,
-    pub(super) v: Vec<f64>,
-    pub(super) r: Vec<f64>,
-    pub(super) p: Vec<f64>,
+pub(in crate::solver) struct State<T = f64> {
+    pub(super) s: T,
+    pub(super) w: T,
+    pub(super) q: Vec<T>,
+    pub(super) v: Vec<T>,
+    pub(super) r: Vec<T>,
+    pub(super) p: Vec<T>,
+}
+
+impl<T> State<T> {
+    fn lists(&self) -> [&[T]; 6] {
+        let Self { s, w, q, v, r, p } = self;
+        [slice::from_ref(s), slice::from_ref(w), q, v, r, p]
+    }
+
+    fn lists_mut(&mut self) -> [&mut [T]; 6] {
+        let Self { s, w, q, v, r, p } = self;
+        [slice::from_mut(s), slice::from_mut(w), q, v, r, p]
+    }
+
+    /// Its components, in the order in which they are declared.
+    fn components(&self) -> impl Iterator<Item = &T> {
+        self.lists().into_iter().flatten()
+    }
+
+    /// Gives each component what is made of that of another.
+    #[inline(always)]
+    fn follow<U>(&mut self, other: &State<U>, each: impl Fn(&mut T, &U)) {
+        for (own, other) in self.lists_mut().into_iter().zip(other.lists()) {
+            own.iter_mut().zip(other).for_each(|(own, other)| each(own, other));
+        }
+    }
 }
 
 impl State {
@@ -47,26 +74,14 @@ impl State {
         2 + 2 * self.q.len() + 2 * self.r.len()
     }
 
-    /// Copies its components into a list, in the order in which they are declared.
+    /// Copies its components into a list.
     pub(super) fn get(&self, list: &mut [f64]) {
-        let own = [self.s, self.w];
-        let mut rest = list;
-        for part in [&own[..], &self.q, &self.v, &self.r, &self.p] {
-            let (here, after) = rest.split_at_mut(part.len());
-            here.copy_from_slice(part);
-            rest = after;
-        }
+        list.iter_mut().zip(self.components()).for_each(|(x, own)| *x = *own);
     }
 
     /// Takes its components from such a list.
     pub(super) fn set(&mut self, list: &[f64]) {
-        let (own, mut rest) = list.split_at(2);
-        (self.s, self.w) = (own[0], own[1]);
-        for part in [&mut self.q, &mut self.v, &mut self.r, &mut self.p] {
-            let (here, after) = rest.split_at(part.len());
-            part.copy_from_slice(here);
-            rest = after;
-        }
+        self.lists_mut().into_iter().flatten().zip(list).for_each(|(own, x)| *own = *x);
     }
 }
 
@@ -104,12 +119,7 @@ pub(in crate::solver) struct Expansion {
     /// Where it begins in its sample interval, and its unit.
     pub(super) from_s: f64,
     pub(super) unit_s: f64,
-    pub(super) s: Polynomial,
-    pub(super) w: Polynomial,
-    pub(super) q: Vec<Polynomial>,
-    pub(super) v: Vec<Polynomial>,
-    pub(super) r: Vec<Polynomial>,
-    pub(super) p: Vec<Polynomial>,
+    pub(super) state: State<Polynomial>,
     /// Accelerations with the slope's share: ground, block, floors, contents.
     pub(super) ground: Polynomial,
     pub(super) u: Polynomial,
@@ -261,12 +271,14 @@ impl Body {
         Expansion {
             from_s: 0.0,
             unit_s: 0.0,
-            s: ZERO,
-            w: ZERO,
-            q: vec![ZERO; n],
-            v: vec![ZERO; n],
-            r: vec![ZERO; e],
-            p: vec![ZERO; e],
+            state: State {
+                s: ZERO,
+                w: ZERO,
+                q: vec![ZERO; n],
+                v: vec![ZERO; n],
+                r: vec![ZERO; e],
+                p: vec![ZERO; e],
+            },
             ground: ZERO,
             u: ZERO,
             floors: vec![ZERO; n],
@@ -314,7 +326,7 @@ impl Body {
         for k in 0..=orders.min(DEGREE) {
             self.forces_of_order(in_force, &pressing, k, out);
             if orders == DEGREE {
-                sizes[k] = self.momentum(&out.w, &out.v, &out.p, k);
+                sizes[k] = self.momentum(&out.state, k);
                 largest = largest.max(sizes[k]);
                 // What is a hundred-millionth of the motion keeps its digits.
                 if is_linear && k > 4 && sizes[k].max(sizes[k - 1]) <= 1e-6 * NEGLIGIBLE * largest {
@@ -353,7 +365,9 @@ impl Body {
         out: &mut Expansion,
     ) {
         let (n, modes, force) = (self.storeys(), in_force.modes, &in_force.force);
-        let Expansion { q, v, floors, carried, restoring, carriers, .. } = out;
+        let Expansion {
+            state: State { s, w, q, v, .. }, floors, carried, restoring, carriers, ..
+        } = out;
         // Lengths that the compiler knows to be the same.
         let (q, v, floors) = (&q[..n], &v[..n], &mut floors[..n]);
         let (restoring, carriers) = (&mut restoring[..n], &carriers[..=n]);
@@ -367,9 +381,9 @@ impl Body {
             floors[i][k] = (pull * press - restoring[i]) / mass_kg;
         }
         out.shear[k] = shear;
-        let product = force.of_normal_of_order(k, [out.normal[0], out.normal[1]], &out.s);
-        let spring = (force.restraint.stiffness_n_per_m * out.s[k]
-            + force.restraint.damper_n_s_per_m * out.w[k])
+        let product = force.of_normal_of_order(k, [out.normal[0], out.normal[1]], s);
+        let spring = (force.restraint.stiffness_n_per_m * s[k]
+            + force.restraint.damper_n_s_per_m * w[k])
             + (if k == 0 { force.force_n } else { 0.0 } + product);
         if modes[0] == Mode::Stick {
             out.u[k] = out.ground[k];
@@ -378,7 +392,7 @@ impl Body {
         } else {
             let sign = modes[0].sign();
             let terms = if force.pressing.is_plain() { k.min(1) } else { k };
-            let coefficient = |k: usize| force.coefficient.of_order(k, sign * out.w[k], &out.decay);
+            let coefficient = |k: usize| force.coefficient.of_order(k, sign * w[k], &out.decay);
             let resisting = (0..=terms).fold(0.0, |sum, j| sum + pressing[j] * coefficient(k - j));
             out.slider[k] = -sign * resisting - spring;
             let rubbing = if force.is_friction { product } else { 0.0 };
@@ -401,7 +415,7 @@ impl Body {
     #[inline(always)]
     fn next_order(&self, in_force: &InForce<'_>, step: f64, k: usize, out: &mut Expansion) {
         let (n, modes) = (self.storeys(), in_force.modes);
-        let Expansion { s, w, q, v, r, p, u, floors, carried, decay, .. } = out;
+        let Expansion { state: State { s, w, q, v, r, p }, u, floors, carried, decay, .. } = out;
         if modes[0] != Mode::Stick {
             w[k + 1] = step * (u[k] - out.ground[k]);
             s[k + 1] = step * w[k];
@@ -427,7 +441,7 @@ impl Body {
 
     /// Size of an order: momenta over √mass, so that all are of one kind.
     #[inline(always)]
-    fn momentum(&self, w: &Polynomial, v: &[Polynomial], p: &[Polynomial], k: usize) -> f64 {
+    fn momentum(&self, State { w, v, p, .. }: &State<Polynomial>, k: usize) -> f64 {
         let own = |kg: f64, w: f64| kg * w * w;
         let mut sum = own(self.block_kg, w[k]);
         for (kg, v) in self.masses_kg.iter().zip(v) {
@@ -465,7 +479,7 @@ impl Body {
                 for k in [DEGREE - 1, DEGREE] {
                     limit(1.0, k, 0.1 * out.decay[k].abs());
                 }
-                part = fading_part(&out.w, rate_s_per_m, part);
+                part = fading_part(&out.state.w, rate_s_per_m, part);
             }
             part.min(reach)
         } else {
@@ -478,11 +492,7 @@ impl Expansion {
     /// Takes up a state and the loads from there on.
     fn begin(&mut self, x: &State, loads: &Loads, unit_s: f64) {
         self.unit_s = unit_s;
-        (self.s[0], self.w[0]) = (x.s, x.w);
-        let lists = [(&mut self.q, &x.q), (&mut self.v, &x.v), (&mut self.r, &x.r)];
-        for (series, values) in lists.into_iter().chain([(&mut self.p, &x.p)]) {
-            series.iter_mut().zip(values).for_each(|(series, value)| series[0] = *value);
-        }
+        self.state.follow(x, |series, x| series[0] = *x);
         let Loads { acceleration: [a, a_rate], normal: [n, n_rate] } = *loads;
         self.ground = ZERO;
         (self.ground[0], self.ground[1]) = (a, a_rate * unit_s);
@@ -492,36 +502,20 @@ impl Expansion {
     /// Sets to zero what is not written order by order: normal forces, all that stands still, and the
     /// orders that a series leaves off.
     pub(super) fn clear(&mut self) {
-        (self.s, self.w, self.u, self.shear) = (ZERO, ZERO, ZERO, ZERO);
-        (self.slider, self.friction, self.normal, self.press) = (ZERO, ZERO, ZERO, ZERO);
-        for list in [&mut self.q, &mut self.v, &mut self.floors] {
-            list.fill(ZERO);
-        }
-        for list in [&mut self.r, &mut self.p, &mut self.carried] {
-            list.fill(ZERO);
-        }
+        self.state.lists_mut().into_iter().for_each(|list| list.fill(ZERO));
+        (self.u, self.shear, self.slider, self.friction) = (ZERO, ZERO, ZERO, ZERO);
+        (self.normal, self.press) = (ZERO, ZERO);
+        self.floors.fill(ZERO);
+        self.carried.fill(ZERO);
     }
 
     /// The state at a part of the unit.
     pub(super) fn state_at(&self, part: f64, x: &mut State) {
-        use crate::linear::polynomial::value;
-        x.s = value(&self.s, part);
-        x.w = value(&self.w, part);
-        let move_to = |x: &mut [f64], c: &[Polynomial]| {
-            for (x, c) in x.iter_mut().zip(c) {
-                *x = value(c, part);
-            }
-        };
-        move_to(&mut x.q, &self.q);
-        move_to(&mut x.v, &self.v);
-        move_to(&mut x.r, &self.r);
-        move_to(&mut x.p, &self.p);
+        x.follow(&self.state, |x, series| *x = value(series, part));
     }
 
-    /// The coefficients of an order of the state's components, in the order of [`State::get`].
+    /// The coefficients of an order of the state's components.
     pub(super) fn order(&self, k: usize, list: &mut [f64]) {
-        let own = [self.s, self.w];
-        let all = [&own[..], &self.q, &self.v, &self.r, &self.p].into_iter().flatten();
-        all.zip(list).for_each(|(c, out)| *out = c[k]);
+        list.iter_mut().zip(self.state.components()).for_each(|(out, series)| *out = series[k]);
     }
 }

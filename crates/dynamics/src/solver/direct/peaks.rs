@@ -143,7 +143,7 @@ impl<'e> Quantities for InSeries<'e> {
     }
 
     fn velocity(&self) -> Part<'e> {
-        Part::Less(&self.series.w, 0.0)
+        Part::Less(&self.series.state.w, 0.0)
     }
 
     fn block(&self) -> Part<'e> {
@@ -163,15 +163,15 @@ impl<'e> Quantities for InSeries<'e> {
     }
 
     fn displacement(&self, point: usize) -> Part<'e> {
-        self.of_point(point, &self.series.q)
+        self.of_point(point, &self.series.state.q)
     }
 
     fn drift(&self, point: usize) -> Part<'e> {
-        self.over_last(point, &self.series.q)
+        self.over_last(point, &self.series.state.q)
     }
 
     fn drift_velocity(&self, point: usize) -> Part<'e> {
-        self.over_last(point, &self.series.v)
+        self.over_last(point, &self.series.state.v)
     }
 
     fn acceleration(&self, point: usize) -> Part<'e> {
@@ -184,8 +184,8 @@ impl<'e> Quantities for InSeries<'e> {
     }
 
     fn contents(&self, number: usize) -> [Part<'e>; 2] {
-        let Expansion { p, carried, .. } = self.series;
-        [Part::Less(&p[number], 0.0), Part::Less(&carried[number], 0.0)]
+        let Expansion { state, carried, .. } = self.series;
+        [Part::Less(&state.p[number], 0.0), Part::Less(&carried[number], 0.0)]
     }
 }
 
@@ -255,7 +255,7 @@ impl<'a> Direct<'a> {
         }
         let mut force_n = law.stop_force_n(contact, self.x.s, self.x.w);
         if let Some([of_s, of_w, constant]) = law.stop_row(contact) {
-            let (s, w) = (&self.series.s, &self.series.w);
+            let (s, w) = (&self.series.state.s, &self.series.state.w);
             let mut p: Polynomial = core::array::from_fn(|k| of_s * s[k] + of_w * w[k]);
             p[0] += constant;
             if self.modes[0] == Mode::Stick {
