@@ -133,15 +133,21 @@ pub(in crate::solver) struct Expansion {
     /// Normal force on the slider, and on contents over their mass.
     pub(super) normal: Polynomial,
     pub(super) press: Polynomial,
+    making: Making,
+    /// Part of the unit up to which the series is exact to rounding.
+    pub(super) part: f64,
+}
+
+/// What its orders are made of.
+#[derive(Clone, Debug)]
+struct Making {
     /// `e^(−rate |ṡ|)`.
     decay: Polynomial,
-    /// Restoring forces on the floors, order by order.
+    /// Restoring forces on the floors, of one order.
     restoring: Vec<f64>,
     /// Of block and floors: the mass with what is stuck to it, and the force of what slides on it over the
     /// normal force of a unit of mass.
     carriers: Vec<[f64; 2]>,
-    /// Part of the unit up to which the series is exact to rounding.
-    pub(super) part: f64,
 }
 
 /// `Σ c p`.
@@ -288,9 +294,11 @@ impl Body {
             friction: ZERO,
             normal: ZERO,
             press: ZERO,
-            decay: ZERO,
-            restoring: vec![0.0; n],
-            carriers: vec![[0.0; 2]; 1 + n],
+            making: Making {
+                decay: ZERO,
+                restoring: vec![0.0; n],
+                carriers: vec![[0.0; 2]; 1 + n],
+            },
             part: 1.0,
         }
     }
@@ -311,10 +319,10 @@ impl Body {
         out.begin(x, loads, unit_s);
         let normal = [out.normal[0], out.normal[1]];
         (out.press[0], out.press[1]) = (normal[0] / self.total_kg, normal[1] / self.total_kg);
-        self.load_carriers(in_force.modes, &mut out.carriers);
+        self.load_carriers(in_force.modes, &mut out.making.carriers);
         if let Coefficient::Exponential { rate_s_per_m, .. } = in_force.force.coefficient {
-            out.decay = ZERO;
-            out.decay[0] = libm::exp(-rate_s_per_m * x.w.abs());
+            out.making.decay = ZERO;
+            out.making.decay[0] = libm::exp(-rate_s_per_m * x.w.abs());
         }
         // What sticks does not ask for it.
         let pressing = match in_force.modes[0] {
@@ -365,9 +373,8 @@ impl Body {
         out: &mut Expansion,
     ) {
         let (n, modes, force) = (self.storeys(), in_force.modes, &in_force.force);
-        let Expansion {
-            state: State { s, w, q, v, .. }, floors, carried, restoring, carriers, ..
-        } = out;
+        let Expansion { state: State { s, w, q, v, .. }, floors, carried, making, .. } = out;
+        let Making { decay, restoring, carriers } = making;
         // Lengths that the compiler knows to be the same.
         let (q, v, floors) = (&q[..n], &v[..n], &mut floors[..n]);
         let (restoring, carriers) = (&mut restoring[..n], &carriers[..=n]);
@@ -392,7 +399,7 @@ impl Body {
         } else {
             let sign = modes[0].sign();
             let terms = if force.pressing.is_plain() { k.min(1) } else { k };
-            let coefficient = |k: usize| force.coefficient.of_order(k, sign * w[k], &out.decay);
+            let coefficient = |k: usize| force.coefficient.of_order(k, sign * w[k], decay);
             let resisting = (0..=terms).fold(0.0, |sum, j| sum + pressing[j] * coefficient(k - j));
             out.slider[k] = -sign * resisting - spring;
             let rubbing = if force.is_friction { product } else { 0.0 };
@@ -415,7 +422,8 @@ impl Body {
     #[inline(always)]
     fn next_order(&self, in_force: &InForce<'_>, step: f64, k: usize, out: &mut Expansion) {
         let (n, modes) = (self.storeys(), in_force.modes);
-        let Expansion { state: State { s, w, q, v, r, p }, u, floors, carried, decay, .. } = out;
+        let Expansion { state: State { s, w, q, v, r, p }, u, floors, carried, making, .. } = out;
+        let decay = &mut making.decay;
         if modes[0] != Mode::Stick {
             w[k + 1] = step * (u[k] - out.ground[k]);
             s[k + 1] = step * w[k];
@@ -477,7 +485,7 @@ impl Body {
                 && drop != 0.0
             {
                 for k in [DEGREE - 1, DEGREE] {
-                    limit(1.0, k, 0.1 * out.decay[k].abs());
+                    limit(1.0, k, 0.1 * out.making.decay[k].abs());
                 }
                 part = fading_part(&out.state.w, rate_s_per_m, part);
             }
