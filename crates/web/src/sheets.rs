@@ -255,6 +255,7 @@ pub fn form(
         };
         view! {
             name: field.name,
+            formerly: field.formerly,
             label: FrontEnd::Page.calls(field.name),
             takes,
             words,
