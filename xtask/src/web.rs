@@ -82,9 +82,15 @@ pub fn bench(options: &[&str]) -> Outcome {
         ),
         bar(
             "… first answer computed here, not yet checked",
-            "",
+            "6 s",
             format!("{:.2} s", number("slow_live_s")),
-            true,
+            number("slow_live_s") <= 6.0,
+        ),
+        bar(
+            "… certified",
+            "12 s",
+            format!("{:.2} s", number("slow_certified_s")),
+            number("slow_certified_s") <= 12.0,
         ),
         bar(
             "slider dragged for 4 s: updates a second",

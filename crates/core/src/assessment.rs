@@ -18,6 +18,7 @@ pub mod ida;
 pub mod lateral;
 pub mod models;
 pub mod observed;
+pub mod outline;
 pub mod proportion;
 pub mod sensitivity;
 pub mod single;

@@ -7,7 +7,7 @@ use slipstick::response::{Event, Mode};
 use slipstick::slider::{Direction, RateCurve};
 
 use crate::display::{DisplayUnits, Quantity};
-use crate::number::{compact, significant};
+use crate::number::{compact, rounded, significant};
 
 /// A value given in SI with its unit, as `325 kg`.
 #[must_use]
@@ -164,7 +164,7 @@ pub fn model_rows(model: &Model, display: DisplayUnits) -> Vec<(&'static str, St
         rows.push(("Mass of the structure", show(Quantity::Mass, structure.mass_kg)));
         let missing_kg = structure.missing_mass_kg();
         if missing_kg > 0.0 {
-            let share = compact(1e2 * missing_kg / structure.mass_kg);
+            let share = rounded(1e2 * missing_kg / structure.mass_kg, 4);
             let mass = derived(Quantity::Mass, missing_kg);
             rows.push(("  of it with the block", format!("{mass} ({share} %)")));
         }
@@ -262,12 +262,12 @@ pub fn model_rows(model: &Model, display: DisplayUnits) -> Vec<(&'static str, St
     rows
 }
 
-/// Header and one row a storey, from the roof down; columns without a value are left out.
+/// What stands above a row.
+type Rows = (Vec<String>, Vec<Vec<String>>);
+
+/// What is above the block, and of what sort: storeys from the roof down, columns without a value left out; or modes.
 #[must_use]
-pub fn storey_rows(
-    model: &Model,
-    display: DisplayUnits,
-) -> Option<(Vec<String>, Vec<Vec<String>>)> {
+pub fn storey_rows(model: &Model, display: DisplayUnits) -> Option<(&'static str, Rows)> {
     let (frame, n) = (model.frame(), model.storeys());
     let dampers = match &frame.damping {
         Damping::Dampers(dampers) => Some(dampers),
@@ -276,7 +276,7 @@ pub fn storey_rows(
     let q = model.initial().storey_displacement_m.as_ref();
     let v = model.initial().storey_velocity_m_per_s.as_ref();
     if let Some(structure) = model.structure() {
-        return Some(mode_rows(structure, display));
+        return Some(("Modes", mode_rows(structure, display)));
     }
     let columns = [
         ("Mass", Quantity::Mass, Some(&frame.masses_kg)),
@@ -297,11 +297,11 @@ pub fn storey_rows(
         }
     }
     rows.reverse();
-    (n > 0).then_some((header, rows))
+    (n > 0).then_some(("Storeys, from the roof down", (header, rows)))
 }
 
 /// Header and one row a mode.
-fn mode_rows(structure: &Structure, display: DisplayUnits) -> (Vec<String>, Vec<Vec<String>>) {
+fn mode_rows(structure: &Structure, display: DisplayUnits) -> Rows {
     let unit = display.unit(Quantity::Mass, structure.mass_kg);
     let header = ["Mode".to_owned(), "Period (s)".to_owned(), "Damping (%)".to_owned()];
     let header = header.into_iter().chain([unit.label("Effective mass"), "Share (%)".to_owned()]);

@@ -10,7 +10,7 @@ use crate::display::DisplayUnits;
 use crate::figures::{self, Drawn};
 use crate::laboratory::text::is_number;
 use crate::markup::Markup;
-use crate::number::{compact, typeset, typeset_sentence};
+use crate::number::{compact, typeset, typeset_cell, typeset_sentence};
 use crate::report::Report;
 use crate::summary::method_name;
 use slipstick::notice::{Notice, Severity};
@@ -203,7 +203,7 @@ pub(crate) fn name_table(out: &mut Markup, caption: &str, rows: &[(&str, String)
             .raw("<th scope=\"row\">")
             .text(name.trim_start())
             .raw("</th><td>")
-            .text(value.replace('-', "−"))
+            .text(typeset_sentence(value))
             .raw("</td></tr>\n");
     }
     out.raw("</tbody>\n</table>\n");
@@ -261,9 +261,4 @@ pub(crate) fn number_table(out: &mut Markup, rows: &[Vec<String>]) {
     out.raw("</tbody>\n</table>\n").raw(if short { "</div>\n" } else { "" });
     out.raw(if sentences { "</div>\n" } else { "" });
     out.raw(if wide { "</div>\n" } else { "" });
-}
-
-/// Numbers are set as in print, words as they are.
-fn typeset_cell(cell: &str) -> String {
-    if cell.parse::<f64>().is_ok() { typeset(cell) } else { cell.to_owned() }
 }

@@ -16,6 +16,17 @@ use crate::display::{DisplayUnits, Quantity, Unit};
 use crate::number::compact;
 use crate::plot::Style;
 
+/// Constants of a type, and the list of all of them.
+macro_rules! listed {
+    (
+        $(#[$of_list:meta])* $list:ident: $type:ty;
+        $($(#[$of_one:meta])* $name:ident = $value:expr;)*
+    ) => {
+        $($(#[$of_one])* pub const $name: $type = $value;)*
+        $(#[$of_list])* pub const $list: &[$type] = &[$($name),*];
+    };
+}
+
 /// A quantity that stands along an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisQuantity {
@@ -113,69 +124,48 @@ impl AxisQuantity {
     }
 }
 
-/// Time from the start of the motion.
-pub const TIME: AxisQuantity = AxisQuantity::new("time", "Time", "", Quantity::Time);
-/// Of an oscillator.
-pub const PERIOD: AxisQuantity = AxisQuantity::new("period", "Period", "", Quantity::Time);
-/// Of the block over the ground.
-pub const SLIDING: AxisQuantity =
-    AxisQuantity::new("sliding", "Sliding displacement", "s", Quantity::Length);
-/// Of ground, block, floors and points.
-pub const ACCELERATION: AxisQuantity =
-    AxisQuantity::new("acceleration", "Acceleration", "", Quantity::Acceleration);
-/// Of the ground.
-pub const VELOCITY: AxisQuantity =
-    AxisQuantity::new("velocity", "Velocity", "", Quantity::Velocity);
-/// Of the ground, of surfaces, of contents, of the rig of a test.
-pub const DISPLACEMENT: AxisQuantity =
-    AxisQuantity::new("displacement", "Displacement", "", Quantity::Length);
-/// Of a floor, or of a point of a structure by its modes.
-pub const OVER_BLOCK: AxisQuantity =
-    AxisQuantity::new("over_block", "Displacement over the block", "", Quantity::Length);
-/// Of what slides on a floor.
-pub const OVER_FLOOR: AxisQuantity =
-    AxisQuantity::new("over_floor", "Displacement over the floor", "", Quantity::Length);
-/// Of a storey, or of a point over the one before it.
-pub const DRIFT: AxisQuantity = AxisQuantity::new("drift", "Drift", "", Quantity::Length);
-/// Of the block on its slider.
-pub const SLIDER_FORCE: AxisQuantity =
-    AxisQuantity::new("slider_force", "Slider force", "", Quantity::Force);
-/// The part of it that is friction, with its sign.
-pub const FRICTION_ALONE: AxisQuantity =
-    AxisQuantity::new("friction_alone", "Friction force alone", "", Quantity::Force);
-/// Of the ground on the block.
-pub const FRICTION_FORCE: AxisQuantity =
-    AxisQuantity::new("friction_force", "Friction force", "T", Quantity::Force);
-/// Of the rig of a cyclic test.
-pub const FORCE: AxisQuantity = AxisQuantity::new("force", "Force", "", Quantity::Force);
-/// Relative to the ground.
-pub const ENERGY: AxisQuantity = AxisQuantity::new("energy", "Energy", "", Quantity::Energy);
-/// The ordinate of a floor spectrum.
-pub const SPECTRAL_ACCELERATION: AxisQuantity =
-    AxisQuantity::new("spectral_acceleration", "Spectral acceleration", "", Quantity::Acceleration);
-/// The ordinate of a fragility.
-pub const PROBABILITY: AxisQuantity =
-    AxisQuantity::new("probability", "Probability of exceedance", "", Quantity::Ratio);
-
-/// All quantities that stand along axes.
-pub static QUANTITIES: [AxisQuantity; 16] = [
-    TIME,
-    PERIOD,
-    SLIDING,
-    ACCELERATION,
-    VELOCITY,
-    DISPLACEMENT,
-    OVER_BLOCK,
-    OVER_FLOOR,
-    DRIFT,
-    SLIDER_FORCE,
-    FRICTION_ALONE,
-    FRICTION_FORCE,
-    FORCE,
-    ENERGY,
-    SPECTRAL_ACCELERATION,
-    PROBABILITY,
-];
+listed! {
+    /// All quantities that stand along axes.
+    QUANTITIES: AxisQuantity;
+    /// Time from the start of the motion.
+    TIME = AxisQuantity::new("time", "Time", "", Quantity::Time);
+    /// Of an oscillator.
+    PERIOD = AxisQuantity::new("period", "Period", "", Quantity::Time);
+    /// Of the block over the ground.
+    SLIDING = AxisQuantity::new("sliding", "Sliding displacement", "s", Quantity::Length);
+    /// Of ground, block, floors and points.
+    ACCELERATION = AxisQuantity::new("acceleration", "Acceleration", "", Quantity::Acceleration);
+    /// Of the ground.
+    VELOCITY = AxisQuantity::new("velocity", "Velocity", "", Quantity::Velocity);
+    /// Of the ground, of surfaces, of contents, of the rig of a test.
+    DISPLACEMENT = AxisQuantity::new("displacement", "Displacement", "", Quantity::Length);
+    /// Of a floor, or of a point of a structure by its modes.
+    OVER_BLOCK =
+        AxisQuantity::new("over_block", "Displacement over the block", "", Quantity::Length);
+    /// Of what slides on a floor.
+    OVER_FLOOR =
+        AxisQuantity::new("over_floor", "Displacement over the floor", "", Quantity::Length);
+    /// Of a storey, or of a point over the one before it.
+    DRIFT = AxisQuantity::new("drift", "Drift", "", Quantity::Length);
+    /// Of the block on its slider.
+    SLIDER_FORCE = AxisQuantity::new("slider_force", "Slider force", "", Quantity::Force);
+    /// The part of it that is friction, with its sign.
+    FRICTION_ALONE =
+        AxisQuantity::new("friction_alone", "Friction force alone", "", Quantity::Force);
+    /// Of the ground on the block.
+    FRICTION_FORCE = AxisQuantity::new("friction_force", "Friction force", "T", Quantity::Force);
+    /// Of the rig of a cyclic test.
+    FORCE = AxisQuantity::new("force", "Force", "", Quantity::Force);
+    /// Relative to the ground.
+    ENERGY = AxisQuantity::new("energy", "Energy", "", Quantity::Energy);
+    /// The ordinate of a floor spectrum.
+    SPECTRAL_ACCELERATION = AxisQuantity::new(
+        "spectral_acceleration", "Spectral acceleration", "", Quantity::Acceleration,
+    );
+    /// The ordinate of a fragility.
+    PROBABILITY =
+        AxisQuantity::new("probability", "Probability of exceedance", "", Quantity::Ratio);
+}
 
 /// A line of a figure: what the legend calls it, and how it is drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -192,43 +182,46 @@ const fn entry(key: &'static str, label: &'static str, style: Style) -> LegendEn
     LegendEntry { key, label: Cow::Borrowed(label), style }
 }
 
-/// What the figure is of, where there is nothing beside it.
-pub const MAIN: LegendEntry = entry("main", "", Style::MAIN);
-/// The ground beside what stands on it.
-pub const GROUND: LegendEntry = entry("ground", "ground", Style::DOTTED);
-/// The block beside ground and floors, by its name.
-pub const BLOCK: LegendEntry = entry("block", "", Style { width: 1.3, ..Style::MAIN });
-/// The whole slider beside its friction alone or a stop.
-pub const SLIDER: LegendEntry = entry("slider", "slider", Style::MAIN);
-/// Its friction beside it.
-pub const FRICTION_PART: LegendEntry = entry("friction_part", "friction force alone", RECORD);
-/// Surfaces in series together.
-pub const TOGETHER: LegendEntry = entry("together", "together", Style::WIDE);
-/// Static friction at its bound.
-pub const STATIC_BOUND: LegendEntry = entry("static_bound", "static bound", Style::DASHED);
-/// Kinetic friction beside it.
-pub const KINETIC_FRICTION: LegendEntry =
-    entry("kinetic_friction", "kinetic friction", Style::DOTTED);
-/// The gap that the block has.
-pub const GAP: LegendEntry = entry("gap", "gap", Style::LIMIT);
-/// A limit on a demand.
-pub const LIMIT: LegendEntry = entry("limit", "limit", Style::LIMIT);
-/// What was put in, beside what became of it.
-pub const INPUT: LegendEntry = entry("input", "input", Style { width: 1.4, ..Style::DASHED });
-/// A curve that is fitted.
-pub const FITTED: LegendEntry = entry("fitted", "fitted", Style { width: 2.0, ..Style::MAIN });
-/// What was measured.
-pub const MEASURED: LegendEntry = entry("measured", "measured", Style::WIDE);
-/// What was computed beside it.
-pub const PREDICTED: LegendEntry = entry("predicted", "predicted", Style::MAIN);
-/// Designs that no other beats.
-pub const FRONT: LegendEntry = entry("front", "front", Style { width: 1.2, ..Style::MAIN });
-/// With the least friction.
-pub const LOWER_FRICTION: LegendEntry = entry("lower_friction", "lower friction", Style::WIDE);
-/// With the most friction.
-pub const UPPER_FRICTION: LegendEntry = entry("upper_friction", "upper friction", Style::DASHED);
-/// One of many records.
-pub const ONE_RECORD: LegendEntry = entry("record", "record", RECORD);
+listed! {
+    /// All lines but the fractiles of many runs.
+    LINES: LegendEntry;
+    /// What the figure is of, where there is nothing beside it.
+    MAIN = entry("main", "", Style::MAIN);
+    /// The ground beside what stands on it.
+    GROUND = entry("ground", "ground", Style::DOTTED);
+    /// The block beside ground and floors, by its name.
+    BLOCK = entry("block", "", Style { width: 1.3, ..Style::MAIN });
+    /// The whole slider beside its friction alone or a stop.
+    SLIDER = entry("slider", "slider", Style::MAIN);
+    /// Its friction beside it.
+    FRICTION_PART = entry("friction_part", "friction force alone", RECORD);
+    /// Surfaces in series together.
+    TOGETHER = entry("together", "together", Style::WIDE);
+    /// Static friction at its bound.
+    STATIC_BOUND = entry("static_bound", "static bound", Style::DASHED);
+    /// Kinetic friction beside it.
+    KINETIC_FRICTION = entry("kinetic_friction", "kinetic friction", Style::DOTTED);
+    /// The gap that the block has.
+    GAP = entry("gap", "gap", Style::LIMIT);
+    /// A limit on a demand.
+    LIMIT = entry("limit", "limit", Style::LIMIT);
+    /// What was put in, beside what became of it.
+    INPUT = entry("input", "input", Style { width: 1.4, ..Style::DASHED });
+    /// A curve that is fitted.
+    FITTED = entry("fitted", "fitted", Style { width: 2.0, ..Style::MAIN });
+    /// What was measured.
+    MEASURED = entry("measured", "measured", Style::WIDE);
+    /// What was computed beside it.
+    PREDICTED = entry("predicted", "predicted", Style::MAIN);
+    /// Designs that no other beats.
+    FRONT = entry("front", "front", Style { width: 1.2, ..Style::MAIN });
+    /// With the least friction.
+    LOWER_FRICTION = entry("lower_friction", "lower friction", Style::WIDE);
+    /// With the most friction.
+    UPPER_FRICTION = entry("upper_friction", "upper friction", Style::DASHED);
+    /// One of many records.
+    ONE_RECORD = entry("record", "record", RECORD);
+}
 
 /// An area of the energies that are stacked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -259,29 +252,7 @@ pub fn entries() -> Vec<LegendEntry> {
     let shares = ["p16", "p50", "p84"].into_iter().zip(share_names()).zip(FRACTILES);
     let shares =
         shares.map(|((key, label), style)| LegendEntry { key, label: Cow::Owned(label), style });
-    [
-        MAIN,
-        GROUND,
-        BLOCK,
-        SLIDER,
-        FRICTION_PART,
-        TOGETHER,
-        STATIC_BOUND,
-        KINETIC_FRICTION,
-        GAP,
-        LIMIT,
-        INPUT,
-        FITTED,
-        MEASURED,
-        PREDICTED,
-        FRONT,
-        LOWER_FRICTION,
-        UPPER_FRICTION,
-        ONE_RECORD,
-    ]
-    .into_iter()
-    .chain(shares)
-    .collect()
+    LINES.iter().cloned().chain(shares).collect()
 }
 
 /// What legends call the block: `block`, or its name.

@@ -99,22 +99,38 @@ pub fn typeset(plain: &str) -> String {
     }
 }
 
-/// A sentence with the numbers in it set as in print.
+/// A sentence with the numbers in it set as in print. What stands in quotes is to be typed, and stays.
 ///
 /// ```
 /// use slipstick_report::number::typeset_sentence;
 /// assert_eq!(typeset_sentence("r-1: at -0.2, not 0"), "r-1: at −0.2, not 0");
+/// assert_eq!(typeset_sentence("-6 to 5 (error, 8e-16)."), "−6 to 5 (error, 8\u{202f}×\u{202f}10⁻¹⁶).");
+/// assert_eq!(typeset_sentence("\"A1 - 2e-3 m\" or -1"), "\"A1 - 2e-3 m\" or −1");
 /// ```
 #[must_use]
 pub fn typeset_sentence(plain: &str) -> String {
+    let mut is_quoted = false;
     let set = |word: &str| {
-        let number = word.trim_end_matches([',', ';', ':']);
-        match number.parse::<f64>().is_ok_and(f64::is_finite) {
-            true => typeset(number) + &word[number.len()..],
+        let quotes = word.matches('"').count();
+        let stays = is_quoted || quotes > 0;
+        is_quoted ^= quotes % 2 == 1;
+        let from = word.trim_start_matches('(');
+        let number = from.trim_end_matches([',', ';', ':', ')', '.', '°', '%']);
+        match !stays && number.parse::<f64>().is_ok_and(f64::is_finite) {
+            true => {
+                let (before, after) = (&word[..word.len() - from.len()], &from[number.len()..]);
+                format!("{before}{}{after}", typeset(number))
+            }
             false => word.to_owned(),
         }
     };
     plain.split(' ').map(set).collect::<Vec<_>>().join(" ")
+}
+
+/// A cell of a table as in print: a number by [`typeset`], words as they are.
+#[must_use]
+pub fn typeset_cell(cell: &str) -> String {
+    if cell.parse::<f64>().is_ok() { typeset(cell) } else { cell.to_owned() }
 }
 
 /// [`significant`] and [`typeset`] in one.

@@ -5,7 +5,7 @@ use slipstick::error::SolveError;
 use slipstick::response::{Demands, Response};
 use slipstick_report::display::{DisplayUnits, Quantity};
 use slipstick_report::json::{Serialize, each, pretty};
-use slipstick_report::number::significant;
+use slipstick_report::number::{printed, rounded, significant, typeset};
 use slipstick_report::tables::{events_csv, history_csv};
 use slipstick_report::{FileNote, InputText, Report, Summary, figures, view};
 use wasm_bindgen::prelude::*;
@@ -191,11 +191,11 @@ fn checks(summary: &Summary, outcome: &Outcome) -> impl Serialize {
     ];
     view! {
         holds: checks.holds.map(|_| !summary.check_failed()),
-        bound: significant(checks.bound, 2),
-        figures: each(figures, |(name, value)| view! { name, value: significant(value, 2) }),
+        bound: typeset(&rounded(checks.bound, 2)),
+        figures: each(figures, |(name, value)| view! { name, value: printed(value, 2) }),
         closestCall: checks.closest_call.map(|call| {
             view! {
-                margin: significant(call.margin, 2),
+                margin: printed(call.margin, 2),
                 time_s: call.time_s,
                 kind: call.decision(),
             }

@@ -24,6 +24,7 @@ use slipstick_report::DisplayUnits;
 use slipstick_report::assessment::answer::Tabled;
 use slipstick_report::assessment::{Provenance, Sheet, answer};
 use slipstick_report::json::{each, pretty};
+use slipstick_report::number::{typeset_cell, typeset_sentence};
 use slipstick_report::study::StudyReport;
 use slipstick_report::tables::to_csv;
 use slipstick_report::{FileNote, InputText, report, view};
@@ -88,11 +89,14 @@ impl Page {
             kind: sheet.kind,
             line: &sheet.line,
             first,
-            verdict: &sheet.verdict,
+            verdict: each(&sheet.verdict, |sentence| typeset_sentence(sentence)),
             warnings: each(&sheet.warnings, |notice| warning(None, notice, sheet.display)),
-            tables: each(&sheet.tables, |(heading, rows)| view! { heading, rows }),
-            notes: &sheet.notes,
-            method: &sheet.method,
+            tables: each(&sheet.tables, |(heading, rows)| {
+                let rows = each(rows, |row| each(row, |cell| typeset_cell(cell)));
+                view! { heading, rows }
+            }),
+            notes: each(&sheet.notes, |note| typeset_sentence(note)),
+            method: each(&sheet.method, |line| typeset_sentence(line)),
             figures: each(&sheet.figures, figures::alive),
             commands: &again.commands,
             records: each(&again.records, |(path, text, file)| view! { path, text, file }),
@@ -255,6 +259,7 @@ pub fn form(
         };
         view! {
             name: field.name,
+            formerly: field.formerly,
             label: FrontEnd::Page.calls(field.name),
             takes,
             words,

@@ -12,6 +12,7 @@ use self::alone::{ALONE, Alone};
 use self::left_out::LeftOut;
 use super::floors::FloorSpectra;
 use super::lateral::LateralForce;
+use super::outline::SlidingOutline;
 use super::single::{Job, Judged, Outcome};
 use super::suite::{Scaled, Scaling, Suite};
 use super::{AssessmentError, FailedRun};
@@ -90,8 +91,8 @@ pub struct OnRecord {
     pub runs: Vec<Result<CertifiedRun, FailedRun>>,
     /// Of a pair that was run together what its components say by themselves, with each bound; else none.
     pub alone: Vec<Option<Alone>>,
-    /// Times in s and sliding displacements (sizes of a pair that was run together) in m with nominal friction.
-    pub sliding: [Vec<f64>; 2],
+    /// How it slides with nominal friction; empty where it was not run so.
+    pub sliding: SlidingOutline,
     /// What reading it and running it gave notice of.
     pub notices: Vec<Notice>,
 }
@@ -159,14 +160,24 @@ pub struct ModelHistories {
     pub records: Vec<OnRecord>,
     /// Whether its runs were judged.
     pub certifying: bool,
-    /// Index of the record that slides farthest with the bound that governs, index of that bound, times in s
-    /// and sliding displacements in m.
-    pub governing_history: Option<(usize, usize, [Vec<f64>; 2])>,
+    /// How the record slides that slides farthest with the bound of friction that governs.
+    pub farthest: Option<Farthest>,
     /// Of each bound the displacement of the equivalent-lateral-force procedure under the target spectrum,
     /// where there is one of both.
     pub lateral: Vec<Option<LateralForce>>,
     /// What running components by themselves leaves out, of a model that cannot be run under both.
     pub left_out: Option<LeftOut>,
+}
+
+/// How the record slides that slides farthest with the bound of friction that governs.
+#[derive(Clone, Debug)]
+pub struct Farthest {
+    /// Index of the record.
+    pub record: usize,
+    /// Index of the bound.
+    pub bound: usize,
+    /// How it slides.
+    pub sliding: SlidingOutline,
 }
 
 /// What came of all models.
@@ -448,7 +459,7 @@ pub fn run_histories(
             stop_m: slider.stop_m(),
             levels_m: profiles::levels_m(&model.analysis.model),
             certifying: !kept.without_certificates,
-            governing_history: None,
+            farthest: None,
             lateral: match scaling {
                 Scaling::Target(spectrum, _) => lateral(model.analysis, spectrum),
                 _ => Vec::new(),
@@ -458,7 +469,7 @@ pub fn run_histories(
             left_out: None,
         };
         of_model.left_out = left_out::of(model, &of_model);
-        of_model.governing_history = governing_history(model, &of_model, engine);
+        of_model.farthest = farthest(model, &of_model, engine);
         done.push(of_model);
     }
     let shapes = done.iter().map(ModelHistories::shape);
@@ -589,8 +600,8 @@ struct RunFigures {
     largest: Option<(String, f64)>,
     alone: Option<Alone>,
     floor_spectra: Option<FloorSpectra>,
-    /// Times in s and sliding displacements in m, with nominal friction.
-    sliding: Option<[Vec<f64>; 2]>,
+    /// How it slides; of nominal friction alone.
+    sliding: Option<SlidingOutline>,
     /// What was noticed of model and motion, of the response, and of its demands.
     noticed: [Vec<Notice>; 3],
 }
@@ -615,7 +626,7 @@ impl RunFigures {
         floor_spectra: Option<FloorSpectra>,
     ) -> Self {
         let (nominal, model) = (*bound == Bound::NOMINAL, &job.analysis.model);
-        let sliding = if nominal { sliding(&response) } else { None };
+        let sliding = if nominal { SlidingOutline::of(&response) } else { None };
         let met = struck(model, &response.demands).into_iter();
         let met = met.chain(flat_geometry(model, &response.demands));
         Self {
@@ -650,7 +661,7 @@ fn on_record(
         pga_m_per_s2: scale.abs() * motion.figures().pga_m_per_s2,
         runs: Vec::new(),
         alone: Vec::new(),
-        sliding: [Vec::new(), Vec::new()],
+        sliding: SlidingOutline::default(),
         notices: notices.clone(),
     };
     let mut met = Vec::new();
@@ -712,21 +723,6 @@ fn judged(
     Ok((job, outcome))
 }
 
-/// Times in s and sliding displacements in m, sizes where they are in two directions.
-fn sliding(response: &Response) -> Option<[Vec<f64>; 2]> {
-    let history = response.history.as_ref()?;
-    let x = &history.sliding_displacement_m;
-    let along_y = response.in_plane.as_ref().and_then(|plane| plane.history.as_ref());
-    let sliding = match along_y {
-        None => x.clone(),
-        Some(y) => {
-            let both = x.iter().zip(&y.sliding_displacement_m);
-            both.map(|(x, y)| (x * x + y * y).sqrt()).collect()
-        }
-    };
-    Some([history.time_s.clone(), sliding])
-}
-
 impl OnRecord {
     /// Takes what the tables and the figure tell of a run; what it comes to the end of goes to `all_met`, with how far
     /// it slides.
@@ -759,12 +755,8 @@ impl OnRecord {
     }
 }
 
-/// The run of the record that slides farthest with the bound that governs, once more with its history.
-fn governing_history(
-    model: &ModelOn<'_>,
-    of: &ModelHistories,
-    engine: &Engine<'_>,
-) -> Option<(usize, usize, [Vec<f64>; 2])> {
+/// The run of the record that slides farthest with the bound that governs, once more for its history.
+fn farthest(model: &ModelOn<'_>, of: &ModelHistories, engine: &Engine<'_>) -> Option<Farthest> {
     let peak = of.shape().find("peak_sliding_displacement_m")?.1;
     let bound = of.governing_bound(&peak)?;
     let sizes = of.sizes(&peak, bound);
@@ -772,7 +764,8 @@ fn governing_history(
     let record = confirmed.reduce(|a, b| if sizes[b] > sizes[a] { b } else { a })?;
     let case = Case { record, bound, scale: of.records[record].scale, ..Case::default() };
     let (_, outcome) = with_bound(model, &case, &of.bounds[bound], false, engine).ok()?;
-    Some((record, bound, sliding(&outcome.nominal.response)?))
+    let sliding = SlidingOutline::of(&outcome.nominal.response)?;
+    Some(Farthest { record, bound, sliding })
 }
 
 /// Every run as a row.

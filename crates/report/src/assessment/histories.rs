@@ -265,7 +265,7 @@ impl HistoriesReport<'_> {
             let total = self.torsion(place).map_or(value, |torsion| torsion * value);
             let torsion = self.torsion(place).map_or(String::new(), |torsion| {
                 let (total, factor) = (cell(unit.of(total)), cell(torsion));
-                format!(", with torsion × {factor} {total} {}", unit.symbol)
+                format!(", with torsion (× {factor}) {total} {}", unit.symbol)
             });
             let gap = model.gap_m.map_or(String::new(), |gap_m| {
                 format!("{torsion}, {} % of the gap", cell(100.0 * total / gap_m))

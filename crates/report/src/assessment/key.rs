@@ -32,6 +32,21 @@ pub fn path_words(path: &str) -> String {
     own.unwrap_or(path).replace(['.', '_'], " ")
 }
 
+/// A sentence about one of several curves, that of a value of `by`: `With lower friction: half …`,
+/// `With radius 2 m: half …`.
+#[must_use]
+pub fn about_curve(by: &str, label: &str, sentence: &str) -> String {
+    let mut letters = sentence.chars();
+    let said = match letters.next() {
+        Some(first) => first.to_lowercase().chain(letters).collect(),
+        None => String::new(),
+    };
+    match by {
+        "friction" => format!("With {label} friction: {said}"),
+        path => format!("With {} {label}: {said}", path_words(path)),
+    }
+}
+
 /// A key of a model as it stands along an axis, with its unit: `kinetic friction`, `radius (m)`.
 #[must_use]
 pub fn path_label(path: &str, unit: &str) -> String {
@@ -68,6 +83,9 @@ mod tests {
         assert_eq!(path_words("isolator.period"), "isolator period");
         assert_eq!(path_label("slider.radius", "m"), "radius (m)");
         assert_eq!(path_label("slider.kinetic_friction", ""), "kinetic friction");
+        let said = |by, label| about_curve(by, label, "Half of them.");
+        assert_eq!(said("friction", "lower"), "With lower friction: half of them.");
+        assert_eq!(said("slider.radius", "2 m"), "With radius 2 m: half of them.");
     }
 
     #[test]

@@ -223,7 +223,7 @@ impl Sheet {
         figure_list(out, figure, 1);
         table_list(out, table);
         for note in notes {
-            out.element("p", note).raw("\n");
+            out.element("p", typeset_sentence(note)).raw("\n");
         }
         if let Some((heading, keys)) = keys {
             out.element("h3", heading).raw("\n").element("pre", keys).raw("\n");
@@ -244,7 +244,7 @@ impl Sheet {
         body.raw("<section class=\"verdict").raw(failed).raw("\">\n");
         for (i, sentence) in self.verdict.iter().cloned().chain(first).enumerate() {
             body.raw(if i == 0 { "<p class=\"lead\">" } else { "<p>" })
-                .text(sentence)
+                .text(typeset_sentence(&sentence))
                 .raw("</p>\n");
         }
         body.raw("</section>\n");
@@ -277,7 +277,7 @@ impl Sheet {
         if !method.is_empty() {
             body.raw("<section>\n<h2>Method and limits</h2>\n<ul>\n");
             for line in &method {
-                body.element("li", line).raw("\n");
+                body.element("li", typeset_sentence(line)).raw("\n");
             }
             body.raw("</ul>\n</section>\n");
         }

@@ -7,7 +7,7 @@ use super::{name_table, table_head};
 use crate::describe::{model_rows, storey_rows};
 use crate::display::Quantity;
 use crate::markup::Markup;
-use crate::number::{compact, count, printed, significant};
+use crate::number::{compact, count, printed, significant, typeset};
 use crate::report::{FileNote, Provenance, Report};
 use crate::table::drifts;
 
@@ -18,13 +18,13 @@ pub fn section(out: &mut Markup, report: &Report) {
     out.raw("</div>\n<div>\n");
     name_table(out, "Ground motion", &record_rows(report));
     out.raw("</div>\n</div>\n");
-    if let Some((header, rows)) = storey_rows(report.model, report.display) {
-        out.raw("<h3>Storeys, from the roof down</h3>\n");
+    if let Some((heading, (header, rows))) = storey_rows(report.model, report.display) {
+        out.element("h3", heading).raw("\n");
         table_head(out, &header.into_iter().map(|head| (head, true)).collect::<Vec<_>>());
         for row in rows {
             out.raw("<tr>");
             for cell in row {
-                out.raw("<td class=\"number\">").text(cell.replace('-', "−")).raw("</td>");
+                out.raw("<td class=\"number\">").text(typeset(&cell)).raw("</td>");
             }
             out.raw("</tr>\n");
         }

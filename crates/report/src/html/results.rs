@@ -7,7 +7,9 @@ use crate::describe::{event_bearing, event_direction};
 use crate::display::{Quantity, Unit};
 use crate::floors;
 use crate::markup::Markup;
-use crate::number::{compact, count, decimals, printed, rounded, significant, typeset};
+use crate::number::{
+    compact, count, decimals, printed, rounded, significant, typeset, typeset_sentence,
+};
 use crate::peaks;
 use crate::report::Report;
 use crate::summary::{Summary, exceeds};
@@ -169,7 +171,7 @@ fn event_row(out: &mut Markup, event: &Event, way: &str, s: f64, (unit, places):
         .raw("</td><td>")
         .raw(event.kind.name())
         .raw("</td><td>")
-        .text(way)
+        .text(typeset_sentence(way))
         .raw("</td><td class=\"number\">")
         .text(typeset(&format!("{:.places$}", unit.of(s) + 0.0)))
         .raw("</td></tr>\n");

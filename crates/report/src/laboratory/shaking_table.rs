@@ -102,6 +102,7 @@ pub fn sensors(fit: &TableFit) -> Option<Vec<Vec<String>>> {
             let (factor, unit) = match estimate.unit {
                 "s" => (1e3, "ms"),
                 "m" => (1e3, "mm"),
+                "m/s2" => (1.0, "m/s²"),
                 unit => (1.0, unit),
             };
             let shown = [value, low, high].map(|value| significant(factor * value, 4));

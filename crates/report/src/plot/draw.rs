@@ -3,6 +3,7 @@
 use super::{Axis, Figure, Layout, Limit, NARROW, Panel, PlotSeries, Shape, Style, Tick, thin};
 use crate::markup::Markup;
 use crate::number::trimmed;
+use slipstick::assessment::outline;
 
 const TEXT: f64 = 11.0;
 const SMALL: f64 = 10.0;
@@ -439,7 +440,8 @@ fn draw_series(out: &mut Markup, panel: &Panel, series: &PlotSeries, frame: Fram
             return;
         }
         Shape::Named => {
-            out.raw("<g paint-order=\"stroke\" stroke=\"#fff\" stroke-width=\"3\"")
+            // As wide as the gaps between letters: a line below does not show in them.
+            out.raw("<g paint-order=\"stroke\" stroke=\"#fff\" stroke-width=\"6\" stroke-linejoin=\"round\"")
                 .attribute("fill", series.style.colour)
                 .raw(">");
             let half = 0.5 * text_width(&series.label, SMALL);
@@ -483,7 +485,7 @@ fn polygon_path(placed: &[[f64; 2]]) -> String {
 
 fn history_path(placed: &[[f64; 2]]) -> String {
     let ys: Vec<f64> = placed.iter().map(|point| point[1]).collect();
-    let kept = thin::history(&ys, |i| libm::floor(placed[i][0]) as i64);
+    let kept = outline::shown(&ys, |i| libm::floor(placed[i][0]) as i64);
     let mut path = String::with_capacity(12 * kept.len());
     for (i, &index) in kept.iter().enumerate() {
         let [x, y] = placed[index];

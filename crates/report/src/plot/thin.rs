@@ -1,38 +1,6 @@
-//! Fewer points, the same picture: long histories by minimum and maximum a pixel, loops by
-//! drawing each stroke once.
+//! Fewer points, the same picture: loops by drawing each stroke once.
 
 use std::collections::HashSet;
-
-/// Indices of the points of a history to draw: in each pixel column the first, the lowest, the
-/// highest and the last, in order of time. The extremes of the whole are always among them.
-///
-/// `column` gives the pixel column of a point; columns do not decrease.
-pub fn history(y: &[f64], column: impl Fn(usize) -> i64) -> Vec<usize> {
-    let mut kept = Vec::new();
-    let mut start = 0;
-    while start < y.len() {
-        let here = column(start);
-        let (mut low, mut high, mut end) = (start, start, start);
-        while end + 1 < y.len() && column(end + 1) == here {
-            end += 1;
-            if y[end] < y[low] {
-                low = end;
-            }
-            if y[end] > y[high] {
-                high = end;
-            }
-        }
-        let mut few = [start, low, high, end];
-        few.sort_unstable();
-        for index in few {
-            if kept.last() != Some(&index) {
-                kept.push(index);
-            }
-        }
-        start = end + 1;
-    }
-    kept
-}
 
 /// Strokes of a curve that may run back over itself, in hundredths of a pixel.
 ///
@@ -121,18 +89,6 @@ impl Strokes {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_history_keeps_first_lowest_highest_last_of_each_column() {
-        let y = [0.0, 5.0, -3.0, 1.0, 2.0, 2.0];
-        let kept = history(&y, |i| if i < 4 { 0 } else { 1 });
-        assert_eq!(kept, [0, 1, 2, 3, 4, 5]);
-        let long: Vec<f64> = (0..100_000).map(|i| f64::from(i % 977)).collect();
-        let kept = history(&long, |i| i as i64 / 1000);
-        assert!(kept.len() <= 400);
-        assert!(kept.iter().any(|&i| long[i] == 976.0));
-        assert!(history(&[], |_| 0).is_empty());
-    }
 
     #[test]
     fn a_loop_run_ten_times_is_drawn_once() {

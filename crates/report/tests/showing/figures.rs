@@ -2,6 +2,7 @@
 
 use crate::support::{Case, floor_spectra, frame_model, report, rough_motion, run};
 use slipstick::assessment::floors::FloorSpectra;
+use slipstick::assessment::outline::{COLUMNS, SlidingOutline};
 use slipstick::model::{InitialState, Model, Slider, Stop};
 use slipstick::motion::GroundMotion;
 use slipstick_report::DisplayUnits;
@@ -293,6 +294,69 @@ fn a_drawing_does_not_grow_with_the_record() {
     for (short, long) in svgs(0.02).iter().zip(&svgs(0.002)) {
         let (few, many) = (short.svg.as_str().len(), long.svg.as_str().len());
         assert!(many < 3 * few + 20_000, "{}: {few} bytes grew to {many}", short.id);
+    }
+}
+
+/// Of an outline the same is drawn as of the whole history: what a column of pixels of one reaches, the other reaches
+/// there or a column beside.
+#[test]
+fn an_outline_is_drawn_as_the_history_that_it_is_of() {
+    assert!(COLUMNS as f64 >= WIDTH);
+    let motion = rough_motion(60.0, 0.005);
+    let case = run("m", frame_model(1, 1.0), motion);
+    let history = case.response.history.as_ref().expect("a history");
+    let (times_s, sliding_m) = (&history.time_s, &history.sliding_displacement_m);
+    let outline = SlidingOutline::of(&case.response).expect("an outline");
+    let whole: Vec<[f64; 2]> = times_s.iter().zip(sliding_m).map(|(t, s)| [*t, *s]).collect();
+    assert!(4 * outline.time_s.len() < whole.len());
+    let drawn = |points: Vec<[f64; 2]>, width: f64| {
+        let most = points.iter().fold(0.0, |most: f64, point| most.max(point[1].abs()));
+        let line =
+            PlotSeries { label: String::new(), style: Style::MAIN, shape: Shape::History, points };
+        let panel = Panel {
+            x: Axis::linear("Time (s)", 0.0, times_s[times_s.len() - 1]),
+            y: Axis::symmetric("s (m)", [most]),
+            height: 150.0,
+            series: vec![line],
+            limits: Vec::new(),
+            peak: None,
+            note: String::new(),
+        };
+        let figure = Figure {
+            id: "one".into(),
+            title: String::new(),
+            description: String::new(),
+            layout: Layout::Stacked,
+            panels: vec![panel],
+            shaded: Vec::new(),
+        };
+        let svg = if width == WIDTH { figure.to_svg() } else { figure.to_narrow_svg() };
+        let mut columns = vec![[f64::INFINITY, f64::NEG_INFINITY]; width as usize];
+        for [x, y] in main_lines(svg.as_str()).remove(0) {
+            let [low, high] = &mut columns[x as usize];
+            (*low, *high) = (low.min(y), high.max(y));
+        }
+        columns
+    };
+    for width in [WIDTH, NARROW] {
+        let of_whole = drawn(whole.clone(), width);
+        let of_outline = drawn(outline.points().collect(), width);
+        let reaches = |one: &[[f64; 2]], other: &[[f64; 2]]| {
+            one.iter().enumerate().filter(|(_, [low, _])| low.is_finite()).all(
+                |(i, [low, high])| {
+                    let near = &other[i.saturating_sub(1)..(i + 2).min(other.len())];
+                    near.iter().any(|beside| beside[0] <= *low)
+                        && near.iter().any(|beside| beside[1] >= *high)
+                },
+            )
+        };
+        assert!(reaches(&of_whole, &of_outline), "{width}");
+        assert!(reaches(&of_outline, &of_whole), "{width}");
+        let peak = |columns: &[[f64; 2]]| {
+            let first = [f64::INFINITY, f64::NEG_INFINITY];
+            columns.iter().fold(first, |all, of| [all[0].min(of[0]), all[1].max(of[1])])
+        };
+        assert_eq!(peak(&of_whole), peak(&of_outline));
     }
 }
 

@@ -48,6 +48,20 @@ fn what_users_type_is_never_markup() {
     assert_balanced(&html);
 }
 
+/// Numbers have a minus sign, names of records keep their hyphens.
+#[test]
+fn names_stay_as_they_are_where_numbers_are_set_as_in_print() {
+    let case = run("mock-up", frame_model(2, 1.0), rough_motion(10.0, 0.01));
+    let mut summary = case.summary.clone();
+    summary.record.end_velocity_m_per_s = -0.0125;
+    let mut report = report(&case, &summary);
+    report.record = "taft-021 (text with one column)";
+    let html = report.to_html();
+    assert!(html.contains("<td>taft-021 (text with one column)</td>"));
+    assert!(html.contains("<td>−0.01250 m/s</td>"));
+    assert!(html.contains("<h3>Storeys, from the roof down</h3>"));
+}
+
 const BAD: &str = "<script>\"</pre>";
 
 #[test]

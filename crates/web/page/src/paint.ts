@@ -290,7 +290,7 @@ function paintSeries(at: Placed, series: SeriesData, colour: (name: string) => s
         const half = widthOf(series.label, SMALL) / 2;
         const x = Math.min(Math.max(a, frame.left + half + 2), frame.left + frame.width - half - 2);
         const middle = Math.min(Math.max(b + 4, frame.top + SMALL), frame.top + frame.height - 3);
-        return s("text", { x, y: middle, "text-anchor": "middle", "font-size": SMALL, "paint-order": "stroke", stroke: colour("#ffffff"), "stroke-width": 3 }, series.label);
+        return s("text", { x, y: middle, "text-anchor": "middle", "font-size": SMALL, "paint-order": "stroke", stroke: colour("#ffffff"), "stroke-width": 6, "stroke-linejoin": "round" }, series.label);
       });
     default: {
       const along = path(placed);

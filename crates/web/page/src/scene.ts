@@ -86,6 +86,9 @@ const ABOVE = 46;
 /** Width of the word friction, with a margin, in px. */
 const WORD = 50;
 
+/** Room between a line and a word beside it, in px. */
+const BESIDE = 6;
+
 /** Length of the arrow of the largest friction force, in px. */
 const ARROW = 46;
 
@@ -298,12 +301,17 @@ export class Scene {
     this.part("Shaking table", "It moves as the ground does.", Math.max(0, x - reach), floorY, Math.min(width, 2 * reach), 21);
   }
 
-  /** The dish of a pendulum, deeper than it is, and what glides in it. */
-  private dish({ c, answer, tableX, floorY, base, k }: Frame, reach: number, blockX: number, bw: number): void {
-    const rise = 9;
+  /** Where the line of the gap or the stop is towards +x (1) or −x (−1); not a number where there is none. */
+  private wallAt({ answer, tableX, k }: Frame, bw: number, sign: number): number {
     const { gap_m: gap, stop_m: stops } = answer.state.structure;
-    // Where the line of a gap or a stop is.
-    const wall = tableX + bw / 2 + (stops?.[0] ?? gap ?? Number.NaN) * k;
+    return tableX + sign * (bw / 2 + ((stops ? stops[sign > 0 ? 0 : 1] : gap) ?? Number.NaN) * k);
+  }
+
+  /** The dish of a pendulum, deeper than it is, and what glides in it. */
+  private dish(frame: Frame, reach: number, blockX: number, bw: number): void {
+    const { c, tableX, floorY, base } = frame;
+    const rise = 9;
+    const wall = this.wallAt(frame, bw, 1);
     c.fillStyle = this.colours.table!;
     c.beginPath();
     c.moveTo(tableX - reach, floorY);
@@ -325,7 +333,8 @@ export class Scene {
   }
 
   /** The gap or the stop, on both sides of the block. */
-  private walls({ c, answer, tableX, floorY, k }: Frame, bw: number, bh: number, s: number, width: number): void {
+  private walls(frame: Frame, bw: number, bh: number, s: number, width: number): void {
+    const { c, answer, floorY } = frame;
     const { structure, units } = answer.state;
     const colour = this.colours;
     const stops = structure.stop_m;
@@ -334,7 +343,7 @@ export class Scene {
     gaps.forEach((gap, side) => {
       if (gap === null || !Number.isFinite(gap)) return;
       const sign = side === 0 ? 1 : -1;
-      const x = tableX + sign * (bw / 2 + gap * k);
+      const x = this.wallAt(frame, bw, sign);
       if (x < -8 || x > width + 8) return;
       const reached = sign * s >= gap;
       c.strokeStyle = reached ? colour.gap! : colour.quiet!;
@@ -439,7 +448,8 @@ export class Scene {
   }
 
   /** The force of friction on the block, at the edge that it pulls. */
-  private friction({ c, answer, base }: Frame, knot: number, blockX: number, bw: number, bh: number): void {
+  private friction(frame: Frame, knot: number, blockX: number, bw: number, bh: number): void {
+    const { c, answer, base } = frame;
     const most = largestOf(answer).friction;
     const force = -(answer.friction[knot] ?? 0);
     const length = most > 0 ? (ARROW * Math.abs(force)) / most : 0;
@@ -458,9 +468,12 @@ export class Scene {
     c.lineTo(to - sign * 9, y - 5);
     c.lineTo(to - sign * 9, y + 5);
     c.fill();
-    // The word is whole, at the edge of the picture too.
+    // The word does not lie on the line of a gap, and is whole at the edge of the picture too.
+    const wall = this.wallAt(frame, bw, sign);
+    const beyond = sign * (wall - from) > -BESIDE && sign * (wall - from) < WORD;
+    const word = beyond ? wall + sign * BESIDE : from;
     const room = box(this.canvas)[0] - WORD;
-    this.label(c, "friction", sign > 0 ? Math.min(from, room) : Math.max(from, WORD), y - 8, sign > 0 ? "left" : "right", this.colours.slide);
+    this.label(c, "friction", sign > 0 ? Math.min(word, room) : Math.max(word, WORD), y - 8, sign > 0 ? "left" : "right", this.colours.slide);
     this.part("Friction", "The force of friction on the block. It holds the block while it sticks, and acts against its motion while it slides. The arrow is longest where the force is largest in this motion.", Math.min(from, to), y - 20, Math.abs(to - from), 26);
   }
 

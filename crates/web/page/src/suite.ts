@@ -157,7 +157,7 @@ export class SuiteTab implements Tab {
     this.wanted = settings;
     const left = settings["without records"]?.split("\n") ?? [];
     if (left.length > 0) this.bench.leave(left);
-    for (const [{ name, start }, input] of this.fields) setValue(input, settings[name] ?? start);
+    for (const [{ name, formerly, start }, input] of this.fields) setValue(input, settings[name] ?? settings[formerly] ?? start);
   }
 
   /** What is said for a field, a line each where it may be repeated. */

@@ -242,6 +242,8 @@ export interface Surveyed {
 /** A field of a form. */
 export interface FormField {
   name: string;
+  /** What it was called in the addresses of earlier versions; empty where it has always had its name. */
+  formerly: string;
   label: string;
   takes: "one" | "many" | "choice" | "flag";
   words: string[];

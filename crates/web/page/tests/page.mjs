@@ -382,6 +382,26 @@ test("a link restores the tab with its settings, records and all", () =>
     await other.close();
   }));
 
+test("a link of an earlier version says settings by the words of then", () =>
+  on(async (page, { context }) => {
+    await page.locator("#tab-design").click();
+    await page.waitForFunction(() => location.hash.startsWith("#v1."));
+    for (const [tab, name, formerly, text] of [["design", "friction-factors", "bounds", "0.9,1.2"], ["sensitivity", "vary", "paths", "slider.kinetic_friction"]]) {
+      const fragment = await page.evaluate(async ([tab, formerly, text]) => {
+        const through = async (bytes, by) => new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(by)).arrayBuffer());
+        const packed = Uint8Array.from(atob(location.hash.slice(4).replaceAll("-", "+").replaceAll("_", "/")), (c) => c.charCodeAt(0));
+        const now = JSON.parse(new TextDecoder().decode(await through(packed, new DecompressionStream("deflate-raw"))));
+        const bytes = await through(JSON.stringify({ ...now, tab, settings: { [formerly]: text } }), new CompressionStream("deflate-raw"));
+        return `#v1.${btoa(String.fromCharCode(...bytes)).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "")}`;
+      }, [tab, formerly, text]);
+      const other = await context.newPage();
+      await other.goto(new URL(fragment, page.url()).href);
+      await settled(other);
+      await other.waitForFunction(([tab, name, text]) => document.querySelector(`#panel-${tab} [name=${name}]`)?.value === text, [tab, name, text]);
+      await other.close();
+    }
+  }));
+
 test("a link of more than a megabyte is refused", () =>
   on(async (page) => {
     const fragment = await page.evaluate(async () => {

@@ -113,24 +113,31 @@ export function whole(test, on, root) {
       await page.waitForFunction(() => globalThis.slipstick.answer?.state.name === "Building by its modes, Taft");
       await settled(page);
       assert.deepEqual(await page.evaluate(() => globalThis.slipstick.answer.state.structure.storeyNames), ["First", "Second", "Roof"]);
-      const repeats = async (button, files) => {
+      const repeats = async (button, compared) => {
         const [got] = await Promise.all([page.waitForEvent("download"), button.click()]);
         const out = temporary();
         try {
           await repeated(got, command, out.folder);
           assert.equal(readFileSync(join(out.folder, "building-modes.csv"), "utf8"), readFileSync(join(root, "examples/structures/building-modes.csv"), "utf8"));
-          same(out.folder, files);
+          compared(out.folder);
         } finally {
           out.remove();
         }
       };
       await page.getByText("Export", { exact: true }).click();
-      await repeats(page.getByRole("button", { name: "Everything (ZIP)" }).first(), ["report.html", "summary.json", "history.csv", "events.csv"]);
+      await repeats(page.getByRole("button", { name: "Everything (ZIP)" }).first(), (folder) => same(folder, ["report.html", "summary.json", "history.csv", "events.csv"]));
+      const analysed = async (id) => {
+        const panel = page.locator(`#panel-${id}`);
+        await panel.locator("button.main:not([disabled])").click();
+        await panel.locator(".sheet").waitFor({ timeout: 90000 });
+        return panel.getByRole("button", { name: "Everything (ZIP)" });
+      };
       await page.locator("#tab-suite").click();
-      const panel = page.locator("#panel-suite");
-      await panel.locator("button.main:not([disabled])").click();
-      await panel.locator(".sheet").waitFor({ timeout: 90000 });
-      await repeats(panel.getByRole("button", { name: "Everything (ZIP)" }), ["report.html", "summary.json"]);
+      await repeats(await analysed("suite"), (folder) => same(folder, ["report.html", "summary.json"]));
+      await page.locator("#tab-study").click();
+      const plan = page.locator("#panel-study textarea");
+      await plan.fill((await plan.inputValue()).replace("count  = 64", "count  = 4"));
+      await repeats(await analysed("study"), sameStudy);
     }, { acceptDownloads: true }));
 
   test("the same motion under two names is warned of, in the words of the command", () =>

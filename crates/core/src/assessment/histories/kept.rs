@@ -2,6 +2,7 @@
 
 use super::RunFigures;
 use super::alone::Alone;
+use crate::assessment::outline::SlidingOutline;
 use crate::notice::Notice;
 use crate::response::{Demands, StopDemands, StoreyDemands};
 use crate::study::kept::{bits, kind_of, of_bits};
@@ -28,7 +29,7 @@ pub(super) fn line(run: &RunFigures) -> Option<String> {
         Some(axes) => Some(optional(Some(bits(&numbers(&axes[axis])?)))),
         None => Some(String::new()),
     };
-    let list = |i: usize| optional(sliding.as_ref().map(|lists| bits(&lists[i])));
+    let outline = sliding.as_ref();
     let notice = |Notice { kind, time_s, message, is_severe }: &Notice| {
         let time_s = optional(time_s.map(|time_s| bits(&[time_s])));
         let severe = if *is_severe { "!" } else { "" };
@@ -54,8 +55,8 @@ pub(super) fn line(run: &RunFigures) -> Option<String> {
         name,
         value,
         optional(alone.map(|alone| bits(&alone.axes_m))),
-        list(0),
-        list(1),
+        optional(outline.map(|outline| bits(&outline.time_s))),
+        optional(outline.map(|outline| bits(&outline.sliding_displacement_m))),
         notices(&noticed[0])?,
         notices(&noticed[1])?,
         notices(&noticed[2])?,
@@ -87,7 +88,10 @@ pub(super) fn read(line: &str) -> Option<RunFigures> {
         None => None,
     };
     let sliding = match both([times, sliding]) {
-        Some([times, sliding]) => Some([of_bits(&times)?, of_bits(&sliding)?]),
+        // Lines of an earlier version have whole histories.
+        Some([times, sliding]) => {
+            Some(SlidingOutline::through(&of_bits(&times)?, &of_bits(&sliding)?))
+        }
         None => None,
     };
     let notice = |text: &str| {
@@ -304,7 +308,7 @@ mod tests {
             largest: Some(("friction excess".to_owned(), 3e-12)),
             alone: Some(Alone { axes_m: [0.1, 0.2] }),
             floor_spectra: None,
-            sliding: Some([vec![0.0, 0.01], vec![]]),
+            sliding: Some(SlidingOutline::through(&[0.0, 0.01], &[0.0, -0.0])),
             noticed: [vec![notice.clone()], Vec::new(), vec![notice]],
         };
         let line = line(&run).unwrap();

@@ -36,9 +36,10 @@ pub(super) fn of_sensors(left: &[Remainder], data: &Data, length: f64) -> Vec<No
             && is_of_kind
             && offset.abs() > CLEAR * deviation / independent.sqrt()
         {
+            let (sign, size) = (if offset < 0.0 { '+' } else { '-' }, offset.abs());
             let message = format!(
                 "the sensor of {name} is off by {offset:.4e} {unit}, which was fitted with the rest: \
-                 the mapping \"{name}=… - {offset:.4e} {unit}\" or \"zero=first 2 s\" states its zero"
+                 the mapping \"{name}=… {sign} {size:.4e} {unit}\" or \"zero=first 2 s\" states its zero"
             );
             all.push(Notice::new(NoticeKind::SensorOffset, message));
         }

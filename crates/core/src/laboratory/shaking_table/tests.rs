@@ -193,7 +193,12 @@ fn an_offset_of_a_sensor_is_no_tilt() {
     let (channel, offset_m) = off.offsets[0];
     assert_eq!(channel, Channel::SlidingDisplacement);
     assert!((offset_m - 0.0123).abs() < 1e-4, "{offset_m}");
-    assert!(off.warnings.iter().any(|w| w.kind == NoticeKind::SensorOffset), "{:?}", off.warnings);
+    // The mapping that states the zero takes the offset away, whatever its sign.
+    let below = fitted(&made_by(TILTED, 3.0, [0.05, 3e-4], 1, [-0.0123, 0.0], 5), TILTED, &fit, 1);
+    for (found, zero) in [(&off, "=… - 1.2"), (&below, "=… + 1.2")] {
+        let told = found.warnings.iter().find(|w| w.kind == NoticeKind::SensorOffset);
+        assert!(told.is_some_and(|w| w.message.contains(zero)), "{:?}", found.warnings);
+    }
     // What the accelerometer of the table is off by is tilt all the same, and that is said.
     let kinds: Vec<_> = plain.warnings.iter().map(|warning| warning.kind.name()).collect();
     assert_eq!(kinds, ["zero_not_stated"]);

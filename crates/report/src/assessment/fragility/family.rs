@@ -6,7 +6,7 @@ use slipstick::notice::{Notice, NoticeKind};
 use slipstick::table::Table;
 
 use super::{FragilityReport, POINTS, add_curve};
-use crate::assessment::key::group_value;
+use crate::assessment::key::{about_curve, group_value};
 use crate::assessment::lines::{group_style, line, panel, single};
 use crate::assessment::sheet::{Sheet, cell};
 use crate::display::{DisplayUnits, Unit};
@@ -123,7 +123,7 @@ impl FragilityFamily<'_> {
             verdict: reports
                 .iter()
                 .map(|(group, report)| {
-                    format!("{} = {}: {}", self.by, self.label(group), report.verdict(unit))
+                    about_curve(self.by, &self.label(group), &report.verdict(unit))
                 })
                 .take(6)
                 .collect(),

@@ -1,6 +1,7 @@
 //! The figures of runs over a suite.
 
-use slipstick::assessment::histories::ModelHistories;
+use slipstick::assessment::histories::{Farthest, ModelHistories};
+use slipstick::assessment::outline::SlidingOutline;
 use slipstick::response::DemandColumn;
 
 use super::{HistoriesReport, capital};
@@ -21,15 +22,13 @@ impl HistoriesReport<'_> {
         let label =
             unit.label(if in_plane { "Sliding displacement |s|" } else { "Sliding displacement" });
         let end_s = models.iter().flat_map(|model| &model.records);
-        let end_s = end_s.filter_map(|on| on.sliding[0].last()).fold(0.0, |a: f64, b| a.max(*b));
+        let end_s = end_s.filter_map(|on| on.sliding.time_s.last());
+        let end_s = end_s.fold(0.0, |a: f64, b| a.max(*b));
         let all = models.iter().flat_map(|model| &model.records);
         let nominal = all.map(|on| &on.sliding);
-        let governing =
-            models.iter().filter_map(|model| Some(&model.governing_history.as_ref()?.2));
-        let all: Vec<f64> = nominal
-            .chain(governing)
-            .flat_map(|[_, sliding]| sliding.iter().map(|s| unit.of(*s)))
-            .collect();
+        let farthest = models.iter().filter_map(|model| Some(&model.farthest.as_ref()?.sliding));
+        let all = nominal.chain(farthest).flat_map(|outline| &outline.sliding_displacement_m);
+        let all: Vec<f64> = all.map(|s| unit.of(*s)).collect();
         // A gap far away would flatten every curve.
         let largest = all.iter().fold(0.0, |largest: f64, s| largest.max(s.abs()));
         let gaps = models
@@ -65,18 +64,17 @@ impl HistoriesReport<'_> {
     }
 
     fn history_panel(&self, model: &ModelHistories, y: &Axis, end_s: f64, unit: &Unit) -> Panel {
-        let curve = |[times_s, s]: &[Vec<f64>; 2], label: String, style: Style| {
-            let points = times_s.iter().zip(s).map(|(t, s)| [*t, unit.of(*s)]).collect();
-            over_x(label, style, points)
+        let curve = |outline: &SlidingOutline, label: String, style: Style| {
+            over_x(label, style, outline.points().map(|[t, s]| [t, unit.of(s)]).collect())
         };
         let nominal = model.records.iter().map(|on| curve(&on.sliding, String::new(), RECORD));
-        let governs = model.governing_history.as_ref().map(|(record, bound, history)| {
+        let farthest = model.farthest.as_ref().map(|Farthest { record, bound, sliding }| {
             let name = &model.records[*record].record;
             let label = match model.bounds.len() {
                 1 => name.clone(),
                 _ => format!("{name}, {} friction", model.bounds[*bound].name),
             };
-            curve(history, label, GROUPS[0])
+            curve(sliding, label, GROUPS[0])
         });
         let limit = |value: f64, label: &str| Limit {
             value: unit.of(value),
@@ -97,7 +95,7 @@ impl HistoriesReport<'_> {
                 Axis::linear("Time (s)", 0.0, end_s),
                 y.clone(),
                 150.0,
-                nominal.chain(governs).collect(),
+                nominal.chain(farthest).collect(),
             )
         }
     }

@@ -7,7 +7,7 @@ use slipstick::motion::intensity::LevelMeasure;
 use slipstick::notice::Notice;
 
 use super::IdaReport;
-use crate::assessment::key::{group_value, title};
+use crate::assessment::key::{about_curve, group_value, title};
 use crate::assessment::lines::{clipped, group_style, line, panel, share_names, single};
 use crate::assessment::sheet::{Sheet, cell, counted_as, failed};
 use crate::display::DisplayUnits;
@@ -116,12 +116,7 @@ impl Groups<'_> {
         warnings.extend(family.run.warnings.iter().chain(family.warnings).cloned());
         let verdict = |(label, report): (String, &IdaReport<'_>)| {
             let said = report.verdict().into_iter().next()?;
-            Some(match self.by {
-                "friction" => {
-                    format!("With {label} friction: {}", said.replacen("Half", "half", 1))
-                }
-                by => format!("{by} = {label}: {}", said.replacen("Half", "half", 1)),
-            })
+            Some(about_curve(self.by, &label, &said))
         };
         let mut notes: Vec<String> = Vec::new();
         if family.limit.is_some() {
