@@ -1,7 +1,7 @@
 //! The motion between two events as an affine system over whole samples.
 //!
-//! Under a constant normal force and a force of the slider that is linear in `s` and `ṡ` it is `ẋ = A x + b a + g`
-//! in one assignment of modes. What [`Body::expand`](super::body::Body::expand) makes of units is its
+//! Under a constant normal force and a force of the slider that is linear in `s` and `ṡ`, or where all sticks, it is
+//! `ẋ = A x + b a + g` in one assignment of modes. What [`Body::expand`](super::body::Body::expand) makes of units is its
 //! matrices, and every output `c·x + d a + e`. In the energy norm of block, floors and what is stuck
 //! to them
 //!

@@ -129,9 +129,12 @@ fn batches<'a, S: Simd>(
         ahead.outputs.clear();
         let start = affine.outputs.iter().map(|y| [y.at(&ahead.x, a); BATCH + 1]);
         ahead.outputs.extend(start);
-        ahead.outputs[output::FRICTION][0] += phase.of_varying_normal_n(course, sample);
+        phase.add_of_varying_normal(course, &mut ahead.outputs[output::FRICTION][..1], sample);
+        let (first, varies) = (sample, matches!(phase.ground.normal, Normal::Varying(_)));
         while sample + BATCH <= end && walk.pulse.tick(walk.units).is_ok() {
-            phase.find_bounds(course, &mut margins, sample);
+            if varies || sample == first {
+                phase.find_bounds(course, &mut margins, sample);
+            }
             let steps = phase.batch(simd, course, ahead, (affine, configuration), &margins, sample);
             sample += steps;
             if steps < BATCH {
@@ -193,23 +196,27 @@ impl<'a> Direct<'a> {
         for margin in margins {
             let Margin::Held { interface, between: [low, high], .. } = margin else { continue };
             let hold = self.hold(course, *interface);
-            for k in 0..=BATCH {
-                if k == 0 || matches!(self.ground.normal, Normal::Varying(_)) {
-                    let normal_n = self.ground.normal_at(sample + k).max(0.0);
-                    [low[k], high[k]] = self.held_between(&hold, *interface, normal_n);
-                } else {
-                    (low[k], high[k]) = (low[0], high[0]);
+            let bounds = |normal_n: f64| self.held_between(&hold, *interface, normal_n);
+            match self.ground.normal {
+                Normal::Constant(normal_n) => {
+                    [*low, *high] = bounds(normal_n).map(|bound| [bound; BATCH + 1]);
+                }
+                Normal::Varying(normal_n) => {
+                    for (k, normal_n) in normal_n[sample..].iter().take(BATCH + 1).enumerate() {
+                        [low[k], high[k]] = bounds(normal_n.max(0.0));
+                    }
                 }
             }
         }
     }
 
-    /// What a normal force that varies adds to what friction is asked for at rest, beside that of its configuration,
-    /// which knows of none.
-    fn of_varying_normal_n(&self, course: &WalkState<'a>, sample: usize) -> f64 {
-        match self.ground.normal {
-            Normal::Constant(_) => 0.0,
-            Normal::Varying(normal_n) => self.hold(course, 0).of_normal * normal_n[sample],
+    /// Adds to what friction is asked for at samples what a normal force that varies asks of it at rest: their configuration
+    /// knows of none.
+    fn add_of_varying_normal(&self, course: &WalkState<'a>, friction_n: &mut [f64], sample: usize) {
+        let Normal::Varying(normal_n) = self.ground.normal else { return };
+        let of_normal = self.hold(course, 0).of_normal;
+        for (friction_n, normal_n) in friction_n.iter_mut().zip(&normal_n[sample..]) {
+            *friction_n += of_normal * normal_n;
         }
     }
 
@@ -234,13 +241,8 @@ impl<'a> Direct<'a> {
         for (number, y) in affine.outputs.iter().zip(&mut ahead.outputs) {
             number.values(simd, &ahead.states, (a, 1), eight(simd, 0.0)).store_slice(&mut y[1..]);
         }
-        if let Some(normal_n) = self.ground.normal.window(sample) {
-            let of_normal = self.hold(course, 0).of_normal;
-            let friction_n = &mut ahead.outputs[output::FRICTION];
-            for (friction_n, normal_n) in friction_n.iter_mut().zip(normal_n).skip(1) {
-                *friction_n += of_normal * normal_n;
-            }
-        }
+        let friction_n = &mut ahead.outputs[output::FRICTION][1..];
+        self.add_of_varying_normal(course, friction_n, sample + 1);
         let departure = Departure::new(simd, affine, &ahead.states, a);
         let mut clear = u64::MAX;
         for margin in margins {
